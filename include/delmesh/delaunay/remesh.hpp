@@ -1,0 +1,62 @@
+#pragma once
+// Turns a mesh into a Delaunay mesh.
+
+#include "delmesh/base/context.hpp"
+#include "delmesh/delaunay/provenance.hpp"
+#include "delmesh/mesh/mesh.hpp"
+
+#include <optional>
+#include <string_view>
+
+namespace delmesh {
+
+enum class RemeshMode {
+    preserve,  ///< the surface stays as it is: planar edges flip, all others are split (Algorithm 1 of the paper)
+};
+
+/// Why a run ended. Whatever the reason, the mesh is valid and every vertex and face of it is accounted for.
+enum class StopReason {
+    done,          ///< every edge is Delaunay
+    max_vertices,  ///< the next split would exceed RemeshOptions::max_vertices
+    unresolved,    ///< doubles (or floats, see RemeshOptions::precision) can not resolve a split of `witness`
+    cancelled,     ///< the context was cancelled
+};
+
+[[nodiscard]] std::string_view name(StopReason reason);
+
+struct RemeshOptions {
+    RemeshMode mode = RemeshMode::preserve;
+    /// The unit of the concentric shells: split vertices lie at the distance 2^k * shell_unit_abs from an end of
+    /// their edge. In units of the coordinates, above 0. The paper's delta.
+    double shell_unit_abs = 1;
+    /// The largest number of vertices that the output may have; 0: no limit.
+    std::size_t max_vertices = 0;
+    /// What new vertices are rounded to when they are made. With float32 the input must consist of floats.
+    Precision precision = Precision::float64;
+
+    /// Calls visitor(field, name, unit, lowest, highest, help) for each option: the one place that describes them.
+    template <class Self, class Visitor>
+    static void describe(Self& self, Visitor&& visit);
+};
+
+struct RemeshReport {
+    StopReason stop = StopReason::done;
+    std::size_t flips = 0;
+    std::size_t splits = 0;
+    /// Edges that had to be split after planar flips alone: no method that keeps the surface adds fewer vertices.
+    std::size_t lower_bound = 0;
+    /// The edge that stopped the run, where one did.
+    std::optional<EdgeId> witness;
+    Provenance provenance;
+};
+
+/// Makes every interior edge's opposite angles sum to at most pi and every boundary edge's opposite angle at most pi/2,
+/// exactly, on the coordinates as they are stored. Input vertices keep their ids and their bits; new ones follow. Mode
+/// `preserve`: every output face lies in an input face (up to the rounding of split points, one ulp). Throws `Error`
+/// (zero_length_edge, degenerate_geometry, bad_argument). Termination: section 3.2 of the paper; where the arithmetic
+/// can not resolve a split, stops with `unresolved`. Cost: O(faces + flips + splits) in practice; there is no bound on
+/// the number of splits in terms of the input size. Deterministic: the same bits for the same input and options,
+/// whatever the number of threads.
+RemeshReport make_delaunay(Mesh& mesh, const RemeshOptions& options = {}, const Context* context = nullptr);
+
+}  // namespace delmesh

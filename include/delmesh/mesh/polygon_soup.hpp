@@ -1,0 +1,44 @@
+#pragma once
+// What a mesh file can hold: points and polygons, with no promise about how they fit together.
+
+#include "delmesh/base/vec3.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace delmesh {
+
+/// The precision in which numbers are stored in a file (and in which new vertices are rounded when they are made).
+enum class Precision { float32, float64 };
+
+/// Points and polygons. Faces are stored one after another in `corners`; face f is
+/// `corners[starts[f]] ... corners[starts[f+1]-1]`. An empty `starts` means that all faces are triangles.
+struct PolygonSoup {
+    std::vector<Vec3> points;
+    std::vector<std::uint32_t> corners;
+    std::vector<std::size_t> starts;
+    /// Line elements (OBJ `l`): pairs of point indices, used as feature edges.
+    std::vector<std::array<std::uint32_t, 2>> lines;
+    /// What the coordinates were stored in: `float32` if every one of them came from 32 bits.
+    Precision stored = Precision::float64;
+
+    [[nodiscard]] bool is_triangles() const { return starts.empty(); }
+    [[nodiscard]] std::size_t face_count() const { return starts.empty() ? corners.size() / 3 : starts.size() - 1; }
+    [[nodiscard]] std::span<const std::uint32_t> face(std::size_t f) const {
+        if (starts.empty()) return {corners.data() + 3 * f, 3};
+        return {corners.data() + starts[f], starts[f + 1] - starts[f]};
+    }
+    void add_face(std::span<const std::uint32_t> polygon);
+};
+
+/// Splits every polygon into triangles (faces with fewer than three corners are left out), in place; triangles stay as
+/// they are. Quads are cut along the diagonal that gives the better smallest angle, other polygons by ear clipping in
+/// their mean plane. A polygon that can not be cut that way (self-crossing, degenerate) becomes a fan.
+/// Cost: O(corners) for triangles and quads, O(n^2) for a single n-gon of up to 1,000 corners; larger ones become a
+/// fan.
+void triangulate(PolygonSoup& soup);
+
+}  // namespace delmesh
