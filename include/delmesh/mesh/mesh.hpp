@@ -36,6 +36,11 @@ public:
     /// O(half-edges).
     [[nodiscard]] std::size_t count_edges() const;
 
+    /// False for what `collapse` or `remove_face` took away, until `compact`. Always true outside of algorithms that
+    /// edit.
+    [[nodiscard]] bool is_live(FaceId f) const { return origin_[f.index() * 3].valid(); }
+    [[nodiscard]] bool is_live(VertexId v) const { return points_[v.index()].x == points_[v.index()].x; }
+
     // --- connectivity ---
     [[nodiscard]] static HalfedgeId next(HalfedgeId h) {
         return HalfedgeId(h.value() % 3 == 2 ? h.value() - 2 : h.value() + 1);
@@ -80,7 +85,7 @@ public:
 
 private:
     friend class MeshEditor;
-    friend struct MeshValidator;
+    void find_outgoing();
 
     std::vector<VertexId> origin_;
     std::vector<HalfedgeId> twin_;
