@@ -2,10 +2,13 @@
 // Turns a mesh into a Delaunay mesh.
 
 #include "delmesh/base/context.hpp"
+#include "delmesh/base/option.hpp"
 #include "delmesh/delaunay/provenance.hpp"
 #include "delmesh/mesh/mesh.hpp"
 
+#include <limits>
 #include <optional>
+#include <span>
 #include <string_view>
 
 namespace delmesh {
@@ -23,6 +26,7 @@ enum class StopReason {
 };
 
 [[nodiscard]] std::string_view name(StopReason reason);
+[[nodiscard]] std::span<const std::string_view> choices(RemeshMode);
 
 struct RemeshOptions {
     RemeshMode mode = RemeshMode::preserve;
@@ -34,9 +38,19 @@ struct RemeshOptions {
     /// What new vertices are rounded to when they are made. With float32 the input must consist of floats.
     Precision precision = Precision::float64;
 
-    /// Calls visitor(field, name, unit, lowest, highest, help) for each option: the one place that describes them.
+    /// See option.hpp.
     template <class Self, class Visitor>
-    static void describe(Self& self, Visitor&& visit);
+    static void describe(Self& self, Visitor&& visit) {
+        visit(self.mode, OptionInfo{.name = "mode", .help = "how the surface may change"});
+        visit(self.shell_unit_abs,
+              OptionInfo{.name = "shell-unit",
+                         .unit = "abs",
+                         .lowest = std::numeric_limits<double>::denorm_min(),
+                         .help = "split vertices lie at 2^k times this from an end of their edge"});
+        visit(self.max_vertices,
+              OptionInfo{.name = "max-vertices", .lowest = 0, .help = "stop before the output has more; 0: no limit"});
+        visit(self.precision, OptionInfo{.name = "precision", .help = "what new vertices are rounded to"});
+    }
 };
 
 struct RemeshReport {

@@ -7,12 +7,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace delmesh {
 
 /// The precision in which numbers are stored in a file (and in which new vertices are rounded when they are made).
 enum class Precision { float32, float64 };
+
+/// "float" and "double", as on the command line.
+[[nodiscard]] std::span<const std::string_view> choices(Precision);
 
 /// Points and polygons. Faces are stored one after another in `corners`; face f is
 /// `corners[starts[f]] ... corners[starts[f+1]-1]`. An empty `starts` means that all faces are triangles.

@@ -1,0 +1,29 @@
+#pragma once
+// Loops over blocks of fixed size on as many threads as the context allows. The blocks do not depend on the number of
+// threads, so neither does what is computed from them.
+
+#include "delmesh/base/context.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cstddef>
+
+namespace delmesh {
+
+/// Calls body(begin, end) for consecutive blocks of [0, count), each `block` long but the last.
+template <class Body>
+void parallel_blocks(std::size_t count, const Context* context, Body&& body, std::size_t block = 16384) {
+    const std::size_t blocks = (count + block - 1) / block;
+    const auto run = [&](std::size_t i) { body(i * block, std::min(count, (i + 1) * block)); };
+    if (blocks <= 1 || thread_count(context) == 1) {
+        for (std::size_t i = 0; i < blocks; ++i) run(i);
+        return;
+    }
+    tbb::task_arena arena(thread_count(context) > 0 ? thread_count(context) : tbb::task_arena::automatic);
+    arena.execute([&] { tbb::parallel_for(std::size_t{0}, blocks, run); });
+}
+
+}  // namespace delmesh

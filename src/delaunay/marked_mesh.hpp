@@ -1,0 +1,49 @@
+#pragma once
+// A mesh whose edges are marked as physical or planar and whose faces know their facet. Flips and splits keep the marks
+// in step, so that planarity is a matter of bookkeeping and never measured again: a split point rounded to double lies
+// up to an ulp off its edge.
+
+#include "delmesh/delaunay/provenance.hpp"
+#include "delmesh/mesh/edits.hpp"
+#include "delmesh/mesh/mesh.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace delmesh {
+
+enum class Mark : std::uint8_t {
+    planar,    ///< lies inside a facet: may be flipped, the surface stays
+    physical,  ///< a crease or the boundary, or a part of one: may only be split
+};
+
+class MarkedMesh {
+public:
+    /// `marks`: one per half-edge, twins alike; `facets`: one per face.
+    MarkedMesh(Mesh& mesh, std::vector<Mark> marks, std::vector<FaceId> facets);
+
+    [[nodiscard]] const Mesh& mesh() const { return mesh_; }
+    [[nodiscard]] bool is_planar(HalfedgeId h) const { return marks_[h.index()] == Mark::planar; }
+    [[nodiscard]] std::size_t input_vertices() const { return input_vertices_; }
+    [[nodiscard]] bool is_input(VertexId v) const { return v.index() < input_vertices_; }
+    /// Where split vertex v lies. Requires !is_input(v).
+    [[nodiscard]] const SplitPoint& split_point(VertexId v) const { return splits_[v.index() - input_vertices_]; }
+
+    /// Flips a planar edge; moves half-edges as `flip` in edits.hpp does. Returns the new edge.
+    HalfedgeId flip_planar(HalfedgeId h);
+    /// Splits an edge at `where`, which is `point` in space; moves half-edges as `split_edge` does.
+    VertexId split(HalfedgeId h, const SplitPoint& where, const Vec3& point);
+
+    void reserve_splits(std::size_t count);
+    /// Hands over the facets and splits. The object is of no more use.
+    [[nodiscard]] Provenance take_provenance();
+
+private:
+    Mesh& mesh_;
+    std::vector<Mark> marks_;
+    std::vector<FaceId> facets_;
+    std::vector<SplitPoint> splits_;
+    std::size_t input_vertices_;
+};
+
+}  // namespace delmesh
