@@ -16,8 +16,9 @@ namespace delmesh::exact {
 static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<double>::digits == 53);
 
 inline constexpr double unit_roundoff = 0x1p-53;
-/// More than all that underflow can add to a sum of a few products.
-inline constexpr double underflow_allowance = 0x1p-1060;
+/// More than all that underflow can add to a sum of a few products; itself a normal number, since processors are slow
+/// with others.
+inline constexpr double underflow_allowance = 0x1p-1000;
 /// Squared lengths in this range neither overflow nor underflow in polynomials of degree 8.
 inline constexpr double smallest_square = 0x1p-200;
 inline constexpr double largest_square = 0x1p200;

@@ -7,8 +7,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
-#include <span>
 
 namespace delmesh::exact {
 
@@ -29,6 +27,12 @@ inline Dyadic decompose(double value) {
     const int zeros = std::countr_zero(magnitude);
     const auto odd = static_cast<std::int64_t>(magnitude >> zeros);
     return {std::signbit(value) ? -odd : odd, std::max(biased, 1) - 1075 + zeros};
+}
+
+/// The least e with |value| < 2^e, for a normal value or infinity; for others, an upper bound of it.
+inline int exponent_above(double value) {
+    const auto biased = static_cast<int>(std::bit_cast<std::uint64_t>(value) >> 52) & 0x7ff;
+    return std::max(biased, 1) - 1022;
 }
 
 struct DyadicPoint {
