@@ -65,4 +65,9 @@ Sign dihedral_big(const Vec3& p, const Vec3& q, const Vec3& u, const Vec3& v, do
     return dihedral_polynomial(i[1] - i[0], i[2] - i[0], i[3] - i[0], s, numerator, denominator);
 }
 
+bool is_planar_edge_big(const Vec3& p, const Vec3& q, const Vec3& u, const Vec3& v) {
+    const auto i = to_integers<4>({p, q, u, v});
+    return is_planar_edge_polynomial(i[1] - i[0], i[2] - i[0], i[3] - i[0]);
+}
+
 }  // namespace delmesh::exact

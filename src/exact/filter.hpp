@@ -41,6 +41,12 @@ inline bool is_structurally_orthogonal(const Vec3& a, const Vec3& b) {
     return (a.x == 0 || b.x == 0) && (a.y == 0 || b.y == 0) && (a.z == 0 || b.z == 0);
 }
 
+/// True if all differences lie in one coordinate plane: their determinant is zero exactly.
+inline bool are_structurally_coplanar(const Vec3& a, const Vec3& b, const Vec3& c) {
+    return (a.x == 0 && b.x == 0 && c.x == 0) || (a.y == 0 && b.y == 0 && c.y == 0) ||
+           (a.z == 0 && b.z == 0 && c.z == 0);
+}
+
 /// delaunay_sign for the rounded differences a = p-u, b = q-u, c = p-v, d = q-v.
 ///
 /// With A = |a|^2 |b|^2, C = |c|^2 |d|^2 and D1 = a.b, D2 = c.d the sign is that of D1/sqrt(A) + D2/sqrt(C), hence

@@ -107,4 +107,9 @@ std::optional<Sign> dihedral_fixed(const Vec3& p, const Vec3& q, const Vec3& u, 
     });
 }
 
+std::optional<bool> is_planar_edge_fixed(const Vec3& p, const Vec3& q, const Vec3& u, const Vec3& v) {
+    return evaluate<4>({p, q, u, v},
+                       [](const auto& i) { return is_planar_edge_polynomial(i[1] - i[0], i[2] - i[0], i[3] - i[0]); });
+}
+
 }  // namespace delmesh::exact

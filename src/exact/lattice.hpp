@@ -18,15 +18,16 @@ struct Dyadic {
     int exponent = no_exponent;
 };
 
+/// Without branches: which coordinates are zero or negative cannot be predicted.
 inline Dyadic decompose(double value) {
+    constexpr std::uint64_t leading = std::uint64_t{1} << 52;
     const auto bits = std::bit_cast<std::uint64_t>(value);
     const int biased = static_cast<int>(bits >> 52) & 0x7ff;
-    const std::uint64_t fraction = bits & ((std::uint64_t{1} << 52) - 1);
-    const std::uint64_t magnitude = biased == 0 ? fraction : fraction | (std::uint64_t{1} << 52);
-    if (magnitude == 0) return {};
-    const int zeros = std::countr_zero(magnitude);
+    const std::uint64_t magnitude = (bits & (leading - 1)) | (biased == 0 ? 0 : leading);
+    const int zeros = std::countr_zero(magnitude | leading << 1);
     const auto odd = static_cast<std::int64_t>(magnitude >> zeros);
-    return {std::signbit(value) ? -odd : odd, std::max(biased, 1) - 1075 + zeros};
+    const std::int64_t negative = static_cast<std::int64_t>(bits) >> 63;
+    return {(odd ^ negative) - negative, magnitude == 0 ? Dyadic::no_exponent : std::max(biased, 1) - 1075 + zeros};
 }
 
 /// The least e with |value| < 2^e, for a normal value or infinity; for others, an upper bound of it.

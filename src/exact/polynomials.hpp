@@ -11,6 +11,11 @@ Sign sign_of(const Integer& value) {
     return static_cast<Sign>(value.sign());
 }
 
+template <class Integer>
+auto square(const Integer& value) {
+    return value * value;
+}
+
 /// A difference of two points, in integers.
 template <class Integer>
 struct Difference {
@@ -24,6 +29,11 @@ auto dot(const Difference<Integer>& a, const Difference<Integer>& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
+template <class Integer>
+auto squared_length(const Difference<Integer>& a) {
+    return square(a.x) + square(a.y) + square(a.z);
+}
+
 /// See filter.hpp for the formula; needs degree 8 only where D1 and D2 have opposite signs.
 template <class Integer>
 Sign delaunay_polynomial(const Difference<Integer>& a, const Difference<Integer>& b, const Difference<Integer>& c,
@@ -32,7 +42,8 @@ Sign delaunay_polynomial(const Difference<Integer>& a, const Difference<Integer>
     const Sign s1 = sign_of(d1), s2 = sign_of(d2);
     if (s1 == s2 || s2 == Sign::zero) return s1;
     if (s1 == Sign::zero) return s2;
-    return s1 * sign_of((d1 * d1) * (dot(c, c) * dot(d, d)) - (d2 * d2) * (dot(a, a) * dot(b, b)));
+    return s1 * sign_of(square(d1) * (squared_length(c) * squared_length(d)) -
+                        square(d2) * (squared_length(a) * squared_length(b)));
 }
 
 template <class Integer>
@@ -46,19 +57,35 @@ bool are_parallel(const Difference<Integer>& a, const Difference<Integer>& b) {
     return same(a.x * b.y, a.y * b.x) && same(a.y * b.z, a.z * b.y) && same(a.z * b.x, a.x * b.z);
 }
 
-/// The sign of n1.n2 - cosine |n1||n2| with n1 = e x a, n2 = c x e, where cosine^2 = numerator / denominator (both not
-/// negative) and `s` is the sign of the cosine. Dot products only, by the identity of Binet and Cauchy.
+/// n1.n2 with n1 = e x a, n2 = c x e: dot products only, by the identity of Binet and Cauchy.
+template <class Integer>
+auto dot_of_normals(const Difference<Integer>& e, const Difference<Integer>& a, const Difference<Integer>& c) {
+    return dot(e, c) * dot(e, a) - squared_length(e) * dot(a, c);
+}
+
+/// |e x a|^2, by the identity of Lagrange.
+template <class Integer>
+auto squared_normal(const Difference<Integer>& e, const Difference<Integer>& a) {
+    return squared_length(e) * squared_length(a) - square(dot(e, a));
+}
+
+/// The sign of n1.n2 - cosine |n1||n2| for such normals, where cosine^2 = numerator / denominator (neither negative)
+/// and `s` is the sign of the cosine; zero where a normal vanishes.
 template <class Integer, class Ratio>
 Sign dihedral_polynomial(const Difference<Integer>& e, const Difference<Integer>& a, const Difference<Integer>& c,
                          Sign s, const Ratio& numerator, const Ratio& denominator) {
-    const auto ee = dot(e, e), ea = dot(e, a), ec = dot(e, c);
-    const auto normals_dot = ec * ea - ee * dot(a, c);
-    const Sign g = sign_of(normals_dot);
-    if (s == Sign::zero) return g;
-    const auto area1 = ee * dot(a, a) - ea * ea, area2 = ee * dot(c, c) - ec * ec;
-    if (sign_of(area1) == Sign::zero || sign_of(area2) == Sign::zero) return Sign::zero;
-    if (g != s) return g == Sign::zero ? -s : g;
-    return s * sign_of((normals_dot * normals_dot) * denominator - (area1 * area2) * numerator);
+    const auto g = dot_of_normals(e, a, c);
+    if (s == Sign::zero) return sign_of(g);
+    const auto n1 = squared_normal(e, a), n2 = squared_normal(e, c);
+    if (sign_of(n1) == Sign::zero || sign_of(n2) == Sign::zero) return Sign::zero;
+    if (sign_of(g) != s) return sign_of(g) == Sign::zero ? -s : sign_of(g);
+    return s * sign_of(square(g) * denominator - (n1 * n2) * numerator);
+}
+
+template <class Integer>
+bool is_planar_edge_polynomial(const Difference<Integer>& e, const Difference<Integer>& a,
+                               const Difference<Integer>& c) {
+    return orientation_polynomial(e, a, c) == Sign::zero && sign_of(dot_of_normals(e, a, c)) == Sign::positive;
 }
 
 }  // namespace delmesh::exact

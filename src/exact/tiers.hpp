@@ -16,6 +16,7 @@ std::optional<Sign> orientation_fixed(const Vec3& a, const Vec3& b, const Vec3& 
 std::optional<bool> are_collinear_fixed(const Vec3& a, const Vec3& b, const Vec3& c);
 /// Also no value where cosine^2 needs a denominator over 2^126 (|cosine| under 2^-10 with all bits in use).
 std::optional<Sign> dihedral_fixed(const Vec3& p, const Vec3& q, const Vec3& u, const Vec3& v, double cosine);
+std::optional<bool> is_planar_edge_fixed(const Vec3& p, const Vec3& q, const Vec3& u, const Vec3& v);
 
 // Tier 3: any finite doubles, in big integers. About a microsecond where exponents are close, more where they spread.
 Sign delaunay_big(const Vec3& p, const Vec3& q, const Vec3& u, const Vec3& v);
@@ -23,5 +24,6 @@ Sign right_angle_big(const Vec3& p, const Vec3& q, const Vec3& u);
 Sign orientation_big(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 bool are_collinear_big(const Vec3& a, const Vec3& b, const Vec3& c);
 Sign dihedral_big(const Vec3& p, const Vec3& q, const Vec3& u, const Vec3& v, double cosine);
+bool is_planar_edge_big(const Vec3& p, const Vec3& q, const Vec3& u, const Vec3& v);
 
 }  // namespace delmesh::exact

@@ -98,7 +98,7 @@ std::array<std::uint64_t, m + n> unsigned_product(const std::array<std::uint64_t
     return product;
 }
 
-/// Subtracts b from the words of `a` that start at `from`, where b fills the rest of them.
+/// Subtracts (b and mask) from the words of `a` that start at `from`, where b fills the rest of them.
 template <std::size_t from, std::size_t m, std::size_t n>
 void subtract_above(std::array<std::uint64_t, m>& a, const std::array<std::uint64_t, n>& b, std::uint64_t mask) {
     static_assert(from + n == m);
@@ -126,9 +126,23 @@ Wide<m + n> operator*(const Wide<m>& a, const Wide<n>& b) {
     const auto x = words_of(a);
     const auto y = words_of(b);
     auto product = unsigned_product(x, y);
-    subtract_above<m>(product, y, sign_mask(x));
-    subtract_above<n>(product, x, sign_mask(y));
+    const std::uint64_t x_negative = sign_mask(x), y_negative = sign_mask(y);
+    // Long factors are nearly always squares and lengths, hence a branch; the signs of short ones cannot be predicted.
+    if (m + n > 4 && (x_negative | y_negative) == 0) return {product};
+    subtract_above<m>(product, y, x_negative);
+    subtract_above<n>(product, x, y_negative);
     return {product};
+}
+
+inline Wide<2> square(Wide<1> a) {
+    return a * a;
+}
+
+/// From the magnitude: no sign to put right.
+template <std::size_t n>
+Wide<n + n> square(const Wide<n>& a) {
+    const auto magnitude = words_of(a.sign() < 0 ? Wide<n>{} - a : a);
+    return {unsigned_product(magnitude, magnitude)};
 }
 
 }  // namespace delmesh::exact
