@@ -21,9 +21,11 @@ struct WriteOptions {
 /// The precision of the coordinates in a file of this format.
 [[nodiscard]] Precision stored_precision(Format format, const WriteOptions& options);
 
-/// Writes beside the name, then renames, so that the file appears whole or not at all. Doubles are written so that they
-/// are read back bit for bit; with float32, coordinates must already be floats (see `round_to_float`), so that nothing
-/// moves here. Throws `Error` (file_not_writable, unsupported_format).
+/// Writes beside the name, then renames, so that the file appears whole or not at all; an existing file keeps its
+/// permissions, a symbolic link stays one, and what is not a regular file (a pipe, /dev/stdout) is written directly.
+/// Doubles are written so that they are read back bit for bit; with float32, coordinates must already be floats (see
+/// `round_to_float`), so that nothing moves here. Polygons stay polygons, but for STL. Throws `Error`
+/// (file_not_writable, unsupported_format, bad_argument where a coordinate is no float, index_out_of_range, too_large).
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const WriteOptions& options = {});
 void write_soup(const std::filesystem::path& path, const PolygonSoup& soup, const WriteOptions& options = {});
 

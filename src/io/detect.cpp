@@ -1,0 +1,95 @@
+#include "io/read_off.hpp"
+#include "io/readers.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+namespace delmesh::io {
+
+namespace {
+
+constexpr std::size_t looked_at = 65536;
+constexpr std::size_t stl_header = 80;
+constexpr std::size_t stl_facet = 50;
+
+constexpr bool is_blank(char c) {
+    return c == ' ' || (c >= '\t' && c <= '\r');
+}
+
+std::uint32_t little_endian(const char* bytes) {
+    std::uint32_t value = 0;
+    for (int i = 3; i >= 0; --i) value = value << 8 | static_cast<unsigned char>(bytes[i]);
+    return value;
+}
+
+/// The first word that is not in a comment.
+std::string_view first_word(std::string_view text) {
+    for (;;) {
+        const auto begin = std::ranges::find_if_not(text, is_blank);
+        text.remove_prefix(static_cast<std::size_t>(begin - text.begin()));
+        if (!text.starts_with('#')) break;
+        text.remove_prefix(std::min(text.find_first_of("\r\n"), text.size()));
+    }
+    return text.substr(0, static_cast<std::size_t>(std::ranges::find_if(text, is_blank) - text.begin()));
+}
+
+bool is_obj_keyword(std::string_view word) {
+    constexpr std::array<std::string_view, 12> keywords{"v", "vt", "vn", "vp", "f",      "l",
+                                                        "p", "o",  "g",  "s",  "mtllib", "usemtl"};
+    return std::ranges::find(keywords, word) != keywords.end();
+}
+
+void refuse_foreign(const Input& input, std::string_view text) {
+    struct Magic {
+        std::string_view bytes;
+        const char* what;
+    };
+    constexpr std::array magics{Magic{"\x1f\x8b", "gzip data"},
+                                Magic{"\x28\xb5\x2f\xfd", "Zstandard data"},
+                                Magic{"PK\x03\x04", "a ZIP archive"},
+                                Magic{"glTF", "binary glTF"},
+                                Magic{"BZh", "bzip2 data"},
+                                Magic{"\xfd"
+                                      "7zXZ",
+                                      "xz data"}};
+    for (const Magic& magic : magics) {
+        if (text.starts_with(magic.bytes)) {
+            throw Error(ErrorCode::unsupported_format,
+                        input.name() + ": expected PLY, OBJ, OFF or STL, found " + magic.what + ", which is not read");
+        }
+    }
+    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
+        input.fail("expected ASCII or UTF-8 text, found UTF-16 text: save it as UTF-8");
+    }
+}
+
+}  // namespace
+
+bool is_binary_stl(Input& input) {
+    input.ensure(looked_at);
+    const std::string_view text = input.view().substr(0, looked_at);
+    if (text.size() < stl_header + 4) return !text.starts_with("solid");
+    const std::uint64_t facets = little_endian(text.data() + stl_header);
+    if (input.remaining() == stl_header + 4 + stl_facet * facets) return true;
+    if (first_word(text) != "solid") return true;
+    return text.substr(0, 4 * stl_header).find('\0') != text.npos;
+}
+
+std::optional<Format> detect_format(Input& input) {
+    input.ensure(looked_at);
+    const std::string_view text = input.view().substr(0, looked_at);
+    refuse_foreign(input, text);
+    if (text.size() > 3 && text.starts_with("ply") && is_blank(text[3])) return Format::ply;
+    if (text.size() >= stl_header + 4 &&
+        input.remaining() == stl_header + 4 + stl_facet * std::uint64_t{little_endian(text.data() + stl_header)}) {
+        return Format::stl;
+    }
+    const std::string_view word = first_word(text);
+    if (parse_off_keyword(word)) return Format::off;
+    if (word == "solid") return Format::stl;
+    if (is_obj_keyword(word)) return Format::obj;
+    return std::nullopt;
+}
+
+}  // namespace delmesh::io

@@ -1,0 +1,56 @@
+#include "delmesh/io/read.hpp"
+
+#include "io/readers.hpp"
+
+#include <string>
+
+namespace delmesh {
+
+namespace io {
+
+namespace {
+
+void skip_byte_order_mark(Input& input) {
+    input.ensure(3);
+    if (input.view().starts_with("\xef\xbb\xbf")) input.skip(3);
+}
+
+}  // namespace
+
+PolygonSoup read_input(Input& input, std::optional<Format> hint, const ReadOptions& options) {
+    if (input.ensure(1) == 0) input.fail("expected a mesh, found an empty file");
+    skip_byte_order_mark(input);
+    const std::optional<Format> detected = detect_format(input);
+    const std::optional<Format> format = options.format ? options.format : detected ? detected : hint;
+    if (!format) {
+        throw Error(ErrorCode::unsupported_format,
+                    input.name() + ": expected PLY, OBJ, OFF or STL, found none of them by content or extension");
+    }
+    switch (*format) {
+        case Format::ply:
+            return read_ply(input);
+        case Format::obj:
+            return read_obj(input);
+        case Format::off:
+            return read_off(input);
+        case Format::stl:
+            return read_stl(input);
+    }
+    throw Error(ErrorCode::unsupported_format, input.name() + ": this format is not read");
+}
+
+}  // namespace io
+
+PolygonSoup read_soup(const std::filesystem::path& path, const ReadOptions& options) {
+    io::FileSource source(path);
+    io::Input input(source, path.string());
+    return io::read_input(input, format_from_path(path), options);
+}
+
+PolygonSoup parse_soup(std::span<const std::byte> bytes, std::string_view name, const ReadOptions& options) {
+    io::MemorySource source(bytes);
+    io::Input input(source, name);
+    return io::read_input(input, format_from_path(std::string(name)), options);
+}
+
+}  // namespace delmesh

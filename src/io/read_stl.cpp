@@ -1,0 +1,148 @@
+#include "io/endian.hpp"
+#include "io/point_index.hpp"
+#include "io/readers.hpp"
+#include "io/soup_builder.hpp"
+#include "io/text_scanner.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+namespace delmesh::io {
+
+namespace {
+
+constexpr std::size_t header_bytes = 80;
+constexpr std::size_t facet_bytes = 50;
+
+Vec3 load_point(const char* from) {
+    constexpr auto order = std::endian::little;
+    return {load<float, order>(from), load<float, order>(from + 4), load<float, order>(from + 8)};
+}
+
+std::uint64_t read_facet_count(Input& input) {
+    if (input.ensure(header_bytes + 4) < header_bytes + 4) {
+        input.fail_at(
+            input.offset() + input.available(),
+            "expected 80 bytes of header and the number of facets of a binary STL file, found the end of the file");
+    }
+    input.skip(header_bytes);
+    const std::uint64_t count = load<std::uint32_t, std::endian::little>(input.begin());
+    if (const auto left = input.remaining(); left && (*left - 4) / facet_bytes < count) {
+        input.fail(fmt::format("expected the number of facets that follow, found {}, but the file holds {}", count,
+                               (*left - 4) / facet_bytes));
+    }
+    input.skip(4);
+    return count;
+}
+
+/// 50 bytes a facet: normal, three points, two bytes that some writers use for colours.
+PolygonSoup read_binary(Input& input) {
+    const std::uint64_t count = read_facet_count(input);
+    SoupBuilder builder;
+    builder.soup.stored = Precision::float32;
+    builder.soup.corners.reserve(3 * input.plausible(count, facet_bytes));
+    builder.soup.points.reserve(input.plausible(count, facet_bytes) / 2 + 2);
+    PointIndex index(builder.soup.points);
+    for (std::uint64_t done = 0; done < count;) {
+        const std::uint64_t here = std::min<std::uint64_t>(input.ensure(facet_bytes) / facet_bytes, count - done);
+        if (here == 0) {
+            input.fail_at(input.offset() + input.available(),
+                          fmt::format("expected facet {} of {}, found the end of the file", done, count));
+        }
+        if (builder.soup.points.size() + 3 * here >= most_points) {
+            input.fail_at(input.offset(), fmt::format("expected fewer than {} points, found more", most_points),
+                          ErrorCode::too_large);
+        }
+        for (std::uint64_t i = 0; i < here; ++i) {
+            for (const std::size_t at : {12, 24, 36}) builder.add_corner(index.add(load_point(input.begin() + at)));
+            builder.end_face();
+            input.skip(facet_bytes);
+        }
+        done += here;
+    }
+    return std::move(builder.soup);
+}
+
+bool is_word(std::string_view word, std::string_view keyword) {
+    return std::ranges::equal(word, keyword, {}, [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; });
+}
+
+/// solid NAME { facet normal N N N  outer loop { vertex X Y Z } endloop endfacet } endsolid NAME, any number of times.
+class AsciiStlReader {
+public:
+    explicit AsciiStlReader(Input& input) : scanner_(input, {}), index_(builder_.soup.points) {}
+
+    PolygonSoup read() {
+        bool in_solid = false;
+        while (scanner_.next_line()) {
+            if (scanner_.line_is_done()) continue;
+            const TextScanner at_word = scanner_;
+            const std::string_view word = scanner_.word();
+            if (is_word(word, "solid")) {
+                in_solid = true;
+            } else if (is_word(word, "endsolid")) {
+                in_solid = false;
+            } else if (is_word(word, "facet") && in_solid) {
+                read_facet();
+            } else if (!is_word(word, "color")) {
+                at_word.fail_expected(in_solid ? "'facet' or 'endsolid'" : "'solid'");
+            }
+        }
+        if (in_solid) scanner_.fail_expected("'facet' or 'endsolid'");
+        return std::move(builder_.soup);
+    }
+
+private:
+    /// What follows "facet" on its line is not used: the normal follows from the vertices, and is often wrong.
+    void read_facet() {
+        next_line("'outer loop'");
+        need("outer", "'outer loop'");
+        need("loop", "'outer loop'");
+        for (;;) {
+            scanner_.need_word("'vertex' or 'endloop'");
+            const TextScanner at_word = scanner_;
+            const std::string_view word = scanner_.word();
+            if (is_word(word, "endloop")) break;
+            if (!is_word(word, "vertex")) at_word.fail_expected("'vertex' or 'endloop'");
+            read_vertex();
+        }
+        if (builder_.open_corners() < 3) {
+            scanner_.fail(fmt::format("expected a facet of three vertices, found {}", builder_.open_corners()));
+        }
+        need("endfacet", "'endfacet'");
+        if (!scanner_.line_is_done()) scanner_.fail_expected("the end of the line");
+        builder_.end_face();
+    }
+
+    void read_vertex() {
+        Vec3 point;
+        for (const int axis : {0, 1, 2}) point[axis] = scanner_.number("a coordinate");
+        if (builder_.soup.points.size() == most_points - 1) {
+            scanner_.fail_at(scanner_.line(), fmt::format("expected fewer than {} points, found more", most_points),
+                             ErrorCode::too_large);
+        }
+        builder_.add_corner(index_.add(point));
+    }
+
+    void next_line(std::string_view expected) {
+        if (!scanner_.next_line()) scanner_.fail_expected(expected);
+    }
+
+    void need(std::string_view keyword, std::string_view expected) {
+        scanner_.need_word(expected);
+        const TextScanner at_word = scanner_;
+        if (!is_word(scanner_.word(), keyword)) at_word.fail_expected(expected);
+    }
+
+    TextScanner scanner_;
+    SoupBuilder builder_;
+    PointIndex index_;
+};
+
+}  // namespace
+
+PolygonSoup read_stl(Input& input) {
+    return is_binary_stl(input) ? read_binary(input) : AsciiStlReader(input).read();
+}
+
+}  // namespace delmesh::io

@@ -1,0 +1,2 @@
+#include "delmesh/mesh/polygon_soup.hpp"
+#include <gtest/gtest.h>
