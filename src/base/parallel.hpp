@@ -4,7 +4,8 @@
 
 #include "delmesh/base/context.hpp"
 
-#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -22,6 +23,9 @@ void parallel_blocks(std::size_t count, const Context* context, Body&& body, std
         for (std::size_t i = 0; i < blocks; ++i) run(i);
         return;
     }
+    // Without it TBB complains on stderr about more threads than cores.
+    const auto wanted = static_cast<std::size_t>(std::max(thread_count(context), tbb::info::default_concurrency()));
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, wanted);
     tbb::task_arena arena(thread_count(context) > 0 ? thread_count(context) : tbb::task_arena::automatic);
     arena.execute([&] { tbb::parallel_for(std::size_t{0}, blocks, run); });
 }

@@ -13,6 +13,8 @@ struct Certificate {
     /// True if no edge violates the Delaunay condition and no face has zero area. (That the mesh is a manifold is what
     /// being a `Mesh` means.)
     bool certified = false;
+    /// False only if the context was cancelled: the counts then cover a part of the mesh, and nothing is certified.
+    bool complete = false;
     std::size_t non_delaunay_edges = 0;     ///< interior edges whose opposite angles sum to more than pi
     std::size_t obtuse_boundary_edges = 0;  ///< boundary edges whose opposite angle exceeds pi/2
     std::size_t degenerate_faces = 0;       ///< faces of exactly zero area
@@ -27,7 +29,10 @@ struct Certificate {
 };
 
 /// Checks every edge of the mesh, exactly and in parallel; the result does not depend on the number of threads.
-/// Cost: O(faces).
+///
+/// A zero-area face has the angles 0, 0, pi of its limit. Where two of its corners coincide, the angles there have no
+/// limit: they are no violation of an edge, but the face is counted in `degenerate_faces`.
+/// Cost: O(faces), 30 to 40 ns per edge on one core where the filter decides; see docs/certificate.md.
 [[nodiscard]] Certificate certify(const Mesh& mesh, const Context* context = nullptr);
 
 }  // namespace delmesh
