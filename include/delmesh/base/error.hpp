@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -25,6 +26,41 @@ enum class ErrorCode {
     file_format,  ///< the bytes are not what the format asks for
     unsupported_format,
 };
+
+/// The enumerator's name.
+[[nodiscard]] constexpr std::string_view name(ErrorCode code) {
+    switch (code) {
+        case ErrorCode::bad_argument:
+            return "bad_argument";
+        case ErrorCode::not_finite:
+            return "not_finite";
+        case ErrorCode::index_out_of_range:
+            return "index_out_of_range";
+        case ErrorCode::degenerate_face:
+            return "degenerate_face";
+        case ErrorCode::non_manifold_edge:
+            return "non_manifold_edge";
+        case ErrorCode::inconsistent_edge:
+            return "inconsistent_edge";
+        case ErrorCode::non_manifold_vertex:
+            return "non_manifold_vertex";
+        case ErrorCode::zero_length_edge:
+            return "zero_length_edge";
+        case ErrorCode::degenerate_geometry:
+            return "degenerate_geometry";
+        case ErrorCode::too_large:
+            return "too_large";
+        case ErrorCode::file_not_readable:
+            return "file_not_readable";
+        case ErrorCode::file_not_writable:
+            return "file_not_writable";
+        case ErrorCode::file_format:
+            return "file_format";
+        case ErrorCode::unsupported_format:
+            return "unsupported_format";
+    }
+    return "unknown";
+}
 
 /// Thrown for bad input. `what()` is one sentence that names the place and says what to do.
 /// `elements` holds the first offenders (at most 16 entries; their meaning is given by the code); `count` says how many

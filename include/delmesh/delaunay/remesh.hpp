@@ -38,7 +38,7 @@ struct RemeshOptions {
     /// What new vertices are rounded to when they are made. With float32 the input must consist of floats.
     Precision precision = Precision::float64;
 
-    /// See option.hpp.
+    /// See option.hpp. `precision` is left out: it follows from the file that is written.
     template <class Self, class Visitor>
     static void describe(Self& self, Visitor&& visit) {
         visit(self.mode, OptionInfo{.name = "mode", .help = "how the surface may change"});
@@ -49,7 +49,6 @@ struct RemeshOptions {
                          .help = "split vertices lie at 2^k times this from an end of their edge"});
         visit(self.max_vertices,
               OptionInfo{.name = "max-vertices", .lowest = 0, .help = "stop before the output has more; 0: no limit"});
-        visit(self.precision, OptionInfo{.name = "precision", .help = "what new vertices are rounded to"});
     }
 };
 

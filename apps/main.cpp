@@ -1,0 +1,70 @@
+// The delmesh command: reads arguments, runs one command, turns errors into a sentence and an exit code.
+
+#include "commands.hpp"
+#include "delmesh/base/error.hpp"
+#include "exit_code.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <new>
+
+namespace delmesh::app {
+
+CLI::App* add_command(CLI::App& app, Action& action, const std::string& name, const std::string& description,
+                      const std::string& example) {
+    CLI::App* command = app.add_subcommand(name, description);
+    command->footer("Example:\n  " + example);
+    command->add_flag("--json", action.common.json, "Print one JSON object on standard output, and nothing else there");
+    command->add_flag("--quiet", action.common.quiet, "Print nothing but errors and what was asked for");
+    command->add_option("--threads", action.common.threads, "Threads to use; 0: all. Results never depend on it")
+        ->type_name("N")
+        ->check(CLI::Range(0, 1024));
+    return command;
+}
+
+namespace {
+
+int fail(const CommonOptions& common, std::string_view code, const std::string& message, int exit_code) {
+    fmt::print(stderr, "delmesh: {}\n", message);
+    if (common.json) {
+        const Json json{{"error", {{"code", code}, {"message", message}}}};
+        fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+    }
+    return exit_code;
+}
+
+int run(const Action& action) {
+    try {
+        Console console(action.common);
+        const int exit_code = action.run(console);
+        const int interrupted = console.interrupted();
+        return interrupted != 0 ? interrupted : exit_code;
+    } catch (const Error& error) {
+        return fail(action.common, name(error.code()), error.what(), exit_code_of(error.code()));
+    } catch (const std::bad_alloc&) {
+        return fail(action.common, "out_of_memory", "there is not enough memory for this mesh", exit_input);
+    }
+}
+
+}  // namespace
+}  // namespace delmesh::app
+
+int main(int argc, char** argv) {
+    using namespace delmesh::app;
+    CLI::App app("Turns any triangle mesh into a Delaunay mesh, and proves that it is one.", "delmesh");
+    app.require_subcommand(1);
+    app.set_version_flag("--version", DELMESH_VERSION);
+    app.footer("`delmesh COMMAND --help` tells more about a command.");
+    Action action;
+    add_remesh_command(app, action);
+    add_check_command(app, action);
+    add_stats_command(app, action);
+    add_sample_command(app, action);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? exit_done : exit_usage;
+    }
+    return run(action);
+}
