@@ -118,9 +118,9 @@ private:
 
     /// A planar edge whose opposing edge exists elsewhere, as can happen where a surface touches itself: halved.
     void split_planar(HalfedgeId h) {
-        const VertexId p = mesh_.origin(h);
-        const VertexId q = mesh_.target(h);
         if (!can_split(mesh_, h)) return part_doubled_faces(h);
+        const VertexId p = std::min(mesh_.origin(h), mesh_.target(h));
+        const VertexId q = std::max(mesh_.origin(h), mesh_.target(h));
         split(h, {p, q, 0.5}, point_between(mesh_.point(p), mesh_.point(q), 0.5, options_.precision), true);
     }
 
