@@ -1,5 +1,7 @@
 #include "delaunay/split_point.hpp"
 
+#include "delmesh/mesh/rounding.hpp"
+
 #include <cmath>
 #include <limits>
 
@@ -15,10 +17,8 @@ double between(double a, double b, double t) {
 }  // namespace
 
 Vec3 point_between(const Vec3& a, const Vec3& b, double t, Precision precision) {
-    Vec3 p{between(a.x, b.x, t), between(a.y, b.y, t), between(a.z, b.z, t)};
-    if (precision == Precision::float32)
-        for (int axis = 0; axis < 3; ++axis) p[axis] = static_cast<double>(static_cast<float>(p[axis]));
-    return p;
+    const Vec3 p{between(a.x, b.x, t), between(a.y, b.y, t), between(a.z, b.z, t)};
+    return precision == Precision::float32 ? round_to_float(p) : p;
 }
 
 EdgePart part_of_input_edge(const MarkedMesh& marked, HalfedgeId h) {

@@ -1,3 +1,4 @@
+#include "delmesh/mesh/rounding.hpp"
 #include "io/read_ply.hpp"
 
 #include <fmt/format.h>
@@ -71,7 +72,7 @@ private:
         if (std::isfinite(value) && std::fabs(value) >= overflow) {
             scanner_.fail(fmt::format("expected a coordinate of type float, found {}, which is too large", value));
         }
-        return static_cast<double>(static_cast<float>(value));
+        return round_to_float(value);
     }
 
     void read_faces(const PlyElement& element, std::size_t list) {

@@ -1,4 +1,5 @@
 #include "delmesh/io/write.hpp"
+#include "delmesh/mesh/rounding.hpp"
 
 #include "delmesh/base/error.hpp"
 #include "io/messages.hpp"
@@ -23,8 +24,7 @@ Format format_of(const std::filesystem::path& path, const WriteOptions& options)
 
 bool is_float(double value) {
     if (!std::isfinite(value)) return true;
-    return std::fabs(value) <= std::numeric_limits<float>::max() &&
-           static_cast<double>(static_cast<float>(value)) == value;
+    return std::fabs(value) <= std::numeric_limits<float>::max() && round_to_float(value) == value;
 }
 
 void check_floats(const std::filesystem::path& path, const Surface& surface) {

@@ -13,9 +13,14 @@ std::span<const std::string_view> choices(Precision) {
     return names;
 }
 
+// Kept out of line: GCC 12 takes a vectorised double -> float -> double for nothing to do and leaves the value as it
+// is.
+[[gnu::noinline]] double round_to_float(double x) {
+    return static_cast<double>(static_cast<float>(x));
+}
+
 Vec3 round_to_float(const Vec3& p) {
-    return {static_cast<double>(static_cast<float>(p.x)), static_cast<double>(static_cast<float>(p.y)),
-            static_cast<double>(static_cast<float>(p.z))};
+    return {round_to_float(p.x), round_to_float(p.y), round_to_float(p.z)};
 }
 
 double round_to_float(PolygonSoup& soup) {

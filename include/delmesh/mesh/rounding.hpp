@@ -5,6 +5,9 @@
 
 namespace delmesh {
 
+/// The nearest float (ties to even; infinite past the largest one).
+[[nodiscard]] double round_to_float(double x);
+
 /// The nearest point whose coordinates are floats (ties to even; infinite past the largest float).
 [[nodiscard]] Vec3 round_to_float(const Vec3& p);
 
