@@ -2,6 +2,7 @@
 
 #include "delmesh/exact/predicates.hpp"
 #include "measure/meshes.hpp"
+#include "support/families.hpp"
 
 #include <gtest/gtest.h>
 
@@ -64,6 +65,19 @@ TEST(Certificate, AgreesWithTheDefinitionOnNoisyTori) {
         if (noise >= 0.1) {
             EXPECT_GT(c.non_delaunay_edges, 50U);
         }
+    }
+}
+
+TEST(Certificate, AgreesWithTheDefinitionOnAllFamilies) {
+    for (const test::NamedSoup& family : test::families()) {
+        SCOPED_TRACE(family.name);
+        const Mesh mesh(family.soup);
+        const Certificate c = certify(mesh);
+        Certificate expected = by_definition(mesh);
+        EXPECT_EQ(c.degenerate_faces > 0, family.has_zero_area);
+        if (family.has_zero_area) expected.certified = false;
+        expect_same_counts(c, expected);
+        EXPECT_EQ(c.worst_edge.has_value(), c.non_delaunay_edges + c.obtuse_boundary_edges > 0);
     }
 }
 

@@ -1,6 +1,8 @@
 #include "delmesh/measure/statistics.hpp"
 
 #include "measure/meshes.hpp"
+#include "support/families.hpp"
+#include "support/surface_facts.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,8 +25,8 @@ double third(int count) {
     return 100.0 * count / 3;
 }
 
-/// The statistics in long doubles with one arc tangent for each angle.
-AngleStatistics by_definition(const Mesh& mesh) {
+/// The statistics in long doubles with one arc tangent for each angle; `margin` degrees are added to the thresholds.
+AngleStatistics by_definition(const Mesh& mesh, long double margin = 0) {
     long double low = 180, high = 0;
     std::size_t small = 0, large = 0;
     for (std::size_t h = 0; h < mesh.halfedge_count(); ++h) {
@@ -41,8 +43,8 @@ AngleStatistics by_definition(const Mesh& mesh) {
             std::numbers::pi_v<long double>;
         low = std::min(low, angle);
         high = std::max(high, angle);
-        small += angle < 30;
-        large += angle > 120;
+        small += angle < 30 + margin;
+        large += angle > 120 + margin;
     }
     const auto n = static_cast<double>(mesh.halfedge_count());
     return {static_cast<double>(low), static_cast<double>(high), 100 * static_cast<double>(small) / n,
@@ -151,6 +153,35 @@ TEST(Statistics, SizeOfAGridAndATorus) {
     EXPECT_EQ(torus.edges, 3U * 84);
     EXPECT_EQ(torus.boundary_edges, 0U);
     EXPECT_EQ(torus.euler, 0);
+}
+
+TEST(Statistics, SizesOfAllFamiliesAgreeWithAnEdgeMap) {
+    for (const test::NamedSoup& family : test::families()) {
+        SCOPED_TRACE(family.name);
+        const MeshSize size = measure_size(Mesh(family.soup));
+        const test::SurfaceFacts facts = test::examine(family.soup);
+        EXPECT_EQ(size.edges, facts.edges);
+        EXPECT_EQ(size.faces, facts.faces);
+        EXPECT_EQ(size.boundary_edges, facts.boundary_edges);
+        EXPECT_EQ(size.components, facts.components);
+        EXPECT_EQ(size.euler, facts.euler);
+    }
+}
+
+TEST(Statistics, AnglesOfAllFamiliesAgreeWithTheDefinition) {
+    for (const test::NamedSoup& family : test::families()) {
+        if (family.has_zero_area) continue;  // the long double has no angle there
+        SCOPED_TRACE(family.name);
+        const Mesh mesh(family.soup);
+        // The lattice families hold angles of exactly 30 and 120 degrees, which long doubles can not tell.
+        const AngleStatistics a = measure_angles(mesh), b = by_definition(mesh, -1e-9L), c = by_definition(mesh, 1e-9L);
+        EXPECT_NEAR(a.min_angle_deg, b.min_angle_deg, 1e-12);
+        EXPECT_NEAR(a.max_angle_deg, b.max_angle_deg, 1e-12);
+        EXPECT_GE(a.small_angles_percent, b.small_angles_percent - 1e-9);
+        EXPECT_LE(a.small_angles_percent, c.small_angles_percent + 1e-9);
+        EXPECT_LE(a.large_angles_percent, b.large_angles_percent + 1e-9);
+        EXPECT_GE(a.large_angles_percent, c.large_angles_percent - 1e-9);
+    }
 }
 
 TEST(Statistics, ComponentsAreCountedWithoutIsolatedVertices) {
