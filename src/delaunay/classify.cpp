@@ -4,6 +4,7 @@
 #include "delmesh/base/error.hpp"
 #include "delmesh/exact/predicates.hpp"
 #include "delmesh/mesh/edits.hpp"
+#include "exact/inline.hpp"
 
 #include <fmt/format.h>
 
@@ -34,7 +35,8 @@ void check_lengths(const Mesh& mesh) {
 
 bool is_cap(const Mesh& mesh, FaceId f) {
     const HalfedgeId h = Mesh::halfedge(f);
-    return are_collinear(mesh.point(mesh.origin(h)), mesh.point(mesh.target(h)), mesh.point(mesh.apex(h)));
+    return exact::are_collinear_inline(mesh.point(mesh.origin(h)), mesh.point(mesh.target(h)),
+                                       mesh.point(mesh.apex(h)));
 }
 
 /// The side of a zero-area face that holds its third corner.
@@ -107,8 +109,8 @@ std::vector<Mark> mark_edges(const Mesh& mesh, const Context* context) {
             const HalfedgeId h(i);
             const HalfedgeId t = mesh.twin(h);
             if (!t.valid() || t < h) continue;
-            const bool planar = is_planar_edge(mesh.point(mesh.origin(h)), mesh.point(mesh.target(h)),
-                                               mesh.point(mesh.apex(h)), mesh.point(mesh.apex(t)));
+            const bool planar = exact::is_planar_edge_inline(mesh.point(mesh.origin(h)), mesh.point(mesh.target(h)),
+                                                             mesh.point(mesh.apex(h)), mesh.point(mesh.apex(t)));
             if (planar) marks[i] = marks[t.index()] = Mark::planar;
         }
     });

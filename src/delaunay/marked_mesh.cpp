@@ -26,19 +26,23 @@ VertexId MarkedMesh::split(HalfedgeId h, const SplitPoint& where, const Vec3& po
     const Mark mark = marks_[h.index()];
     const Mark beyond_next = std::exchange(marks_[Mesh::next(h).index()], Mark::planar);
     marks_.insert(marks_.end(), {mark, beyond_next, Mark::planar});
-    facets_.push_back(facets_[Mesh::face(h).index()]);
+    copy_facet(h);
     if (!t.valid()) return s;
     const Mark beyond_prev = std::exchange(marks_[Mesh::prev(t).index()], Mark::planar);
     marks_.insert(marks_.end(), {mark, Mark::planar, beyond_prev});
-    facets_.push_back(facets_[Mesh::face(t).index()]);
+    copy_facet(t);
     return s;
+}
+
+void MarkedMesh::copy_facet(HalfedgeId h) {
+    if (!facets_.empty()) facets_.push_back(facets_[Mesh::face(h).index()]);
 }
 
 void MarkedMesh::reserve_splits(std::size_t count) {
     // Memory that is reserved but never touched costs nothing; growing a vector costs it twice.
     reserve(mesh_, mesh_.vertex_count() + count, mesh_.face_count() + 2 * count);
     marks_.reserve(marks_.size() + 6 * count);
-    facets_.reserve(facets_.size() + 2 * count);
+    if (!facets_.empty()) facets_.reserve(facets_.size() + 2 * count);
     splits_.reserve(splits_.size() + count);
 }
 

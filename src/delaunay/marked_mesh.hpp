@@ -19,7 +19,7 @@ enum class Mark : std::uint8_t {
 
 class MarkedMesh {
 public:
-    /// `marks`: one per half-edge, twins alike; `facets`: one per face.
+    /// `marks`: one per half-edge, twins alike; `facets`: one per face, or none at all where nobody asks.
     MarkedMesh(Mesh& mesh, std::vector<Mark> marks, std::vector<FaceId> facets);
 
     [[nodiscard]] const Mesh& mesh() const { return mesh_; }
@@ -39,6 +39,8 @@ public:
     [[nodiscard]] Provenance take_provenance();
 
 private:
+    void copy_facet(HalfedgeId h);
+
     Mesh& mesh_;
     std::vector<Mark> marks_;
     std::vector<FaceId> facets_;

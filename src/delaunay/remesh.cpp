@@ -1,7 +1,10 @@
 #include "delmesh/delaunay/remesh.hpp"
 
 #include "delaunay/classify.hpp"
+#include "delaunay/features.hpp"
+#include "delaunay/flip.hpp"
 #include "delaunay/marked_mesh.hpp"
+#include "delaunay/non_delaunay.hpp"
 #include "delaunay/refine.hpp"
 #include "delmesh/base/error.hpp"
 #include "delmesh/mesh/rounding.hpp"
@@ -18,6 +21,17 @@ void check_options(const Mesh& mesh, const RemeshOptions& options) {
     if (!(options.shell_unit_abs > 0) || std::isinf(options.shell_unit_abs))
         throw Error(ErrorCode::bad_argument,
                     fmt::format("the shell unit must be a positive number, not {}", options.shell_unit_abs));
+    if (!(options.feature_angle_deg >= 0 && options.feature_angle_deg <= 180))
+        throw Error(
+            ErrorCode::bad_argument,
+            fmt::format("the feature angle must lie between 0 and 180 degrees, not at {}", options.feature_angle_deg));
+    for (const auto& [a, b] : options.feature_edges) {
+        if (a.index() < mesh.vertex_count() && b.index() < mesh.vertex_count() && mesh.are_joined(a, b)) continue;
+        throw Error(
+            ErrorCode::bad_argument,
+            fmt::format("the feature edge between vertices {} and {} is no edge of the mesh", a.value(), b.value()),
+            {a.index(), b.index()}, 1);
+    }
     if (options.precision == Precision::float64) return;
     for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
         const Vec3& p = mesh.points()[v];
@@ -45,24 +59,79 @@ std::string_view name(StopReason reason) {
 }
 
 std::span<const std::string_view> choices(RemeshMode) {
-    static constexpr std::string_view names[] = {"preserve"};
+    static constexpr std::string_view names[] = {"preserve", "flip", "feature"};
     return names;
 }
 
-RemeshReport make_delaunay(Mesh& mesh, const RemeshOptions& options, const Context* context) {
-    check_options(mesh, options);
-    report_progress(context, "classify", 0);
-    RemeshReport report;
-    report.flips = remove_caps(mesh, context);
+std::span<const std::string_view> choices(FlipOrder) {
+    static constexpr std::string_view names[] = {"worst", "fifo", "lifo"};
+    return names;
+}
+
+std::span<const std::string_view> choices(FlipFinish) {
+    static constexpr std::string_view names[] = {"keep-flipping", "literal"};
+    return names;
+}
+
+namespace {
+
+/// Algorithm 1 on a mesh without zero-area faces.
+void preserve_surface(Mesh& mesh, const RemeshOptions& options, const Context* context, RemeshReport& report) {
     std::vector<Mark> marks = mark_edges(mesh, context);
     std::vector<FaceId> facets = find_facets(mesh, marks);
     std::vector<FaceId> input_facets = facets;
-
-    report_progress(context, "remesh", 0);
     MarkedMesh marked(mesh, std::move(marks), std::move(facets));
     refine(marked, options, context, report);
     report.provenance = marked.take_provenance();
     report.provenance.facet_of_input_face = std::move(input_facets);
+}
+
+/// Algorithm 2 and section 6: flips, then Algorithm 1 for what is left, with all vertices of that moment as input.
+void flip_surface(Mesh& mesh, const RemeshOptions& options, const Context* context, RemeshReport& report) {
+    const bool features = options.mode == RemeshMode::feature;
+    MarkedMesh flipping(
+        mesh,
+        mark_features(mesh, features ? options.feature_angle_deg : 180,
+                      features ? options.feature_edges : std::vector<std::array<VertexId, 2>>{}, context),
+        {});
+    flip_edges(flipping, features, options, context, report);
+    report.provenance = flipping.take_provenance();
+    if (report.stop != StopReason::done || find_non_delaunay(mesh, context).empty()) return;
+
+    RemeshReport rest;
+    MarkedMesh refining(mesh, mark_edges(mesh, context), {});
+    refine(refining, options, context, rest);
+    report.stop = rest.stop;
+    report.witness = rest.witness;
+    report.flips += rest.flips;
+    report.splits += rest.splits;
+    report.splits_boundary += rest.splits_boundary;
+    report.splits_unflippable += rest.splits_feature + rest.splits_unflippable;
+    const std::vector<SplitPoint> more = refining.take_provenance().splits;
+    report.provenance.splits.insert(report.provenance.splits.end(), more.begin(), more.end());
+}
+
+/// The mode that an angle of 0 or 180 degrees comes down to.
+RemeshMode effective_mode(const RemeshOptions& options) {
+    if (options.mode != RemeshMode::feature) return options.mode;
+    if (options.feature_angle_deg == 0) return RemeshMode::preserve;
+    return options.feature_angle_deg == 180 && options.feature_edges.empty() ? RemeshMode::flip : RemeshMode::feature;
+}
+
+}  // namespace
+
+RemeshReport make_delaunay(Mesh& mesh, const RemeshOptions& options, const Context* context) {
+    check_options(mesh, options);
+    RemeshOptions effective = options;
+    effective.mode = effective_mode(options);
+    report_progress(context, "classify", 0);
+    RemeshReport report;
+    report.flips = remove_caps(mesh, context);
+    if (effective.mode == RemeshMode::preserve) {
+        preserve_surface(mesh, effective, context, report);
+    } else {
+        flip_surface(mesh, effective, context, report);
+    }
     report_progress(context, "remesh", 1);
     return report;
 }

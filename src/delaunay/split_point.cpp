@@ -2,6 +2,7 @@
 
 #include "delmesh/mesh/rounding.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -21,35 +22,43 @@ Vec3 point_between(const Vec3& a, const Vec3& b, double t, Precision precision) 
     return precision == Precision::float32 ? round_to_float(p) : p;
 }
 
+namespace {
+
+/// The parameter of v on the edge ab, or NaN if v does not lie on it.
+double parameter_on(const MarkedMesh& marked, VertexId v, VertexId a, VertexId b) {
+    if (v == a) return 0;
+    if (v == b) return 1;
+    if (!marked.is_input(v) && marked.split_point(v).a == a && marked.split_point(v).b == b)
+        return marked.split_point(v).t;
+    return std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
 EdgePart part_of_input_edge(const MarkedMesh& marked, HalfedgeId h) {
     const VertexId p = marked.mesh().origin(h);
     const VertexId q = marked.mesh().target(h);
-    if (marked.is_input(p) && marked.is_input(q)) return p < q ? EdgePart{p, q, 0, 1} : EdgePart{q, p, 1, 0};
-    const SplitPoint& known = marked.split_point(marked.is_input(p) ? q : p);
-    const auto parameter = [&](VertexId v) {
-        if (!marked.is_input(v)) return marked.split_point(v).t;
-        return v == known.a ? 0.0 : 1.0;
-    };
-    return {known.a, known.b, parameter(p), parameter(q)};
+    for (const VertexId v : {p, q}) {
+        if (marked.is_input(v)) continue;
+        const SplitPoint& on = marked.split_point(v);
+        const EdgePart part{on.a, on.b, parameter_on(marked, p, on.a, on.b), parameter_on(marked, q, on.a, on.b)};
+        if (!std::isnan(part.from) && !std::isnan(part.to)) return part;
+    }
+    return p < q ? EdgePart{p, q, 0, 1} : EdgePart{q, p, 1, 0};
 }
 
-double shell_parameter(const MarkedMesh& marked, HalfedgeId h, const EdgePart& part, double unit) {
-    const VertexId p = marked.mesh().origin(h);
-    const VertexId q = marked.mesh().target(h);
-    const bool from_origin = marked.is_input(p) && (!marked.is_input(q) || p < q);
-    const double start = from_origin ? part.from : part.to;
-    const double end = from_origin ? part.to : part.from;
-
-    const double length = norm(marked.mesh().point(part.b) - marked.mesh().point(part.a));
-    const double half = 0.5 * std::fabs(part.to - part.from) * length / unit;
+double shell_parameter(const EdgePart& part, double length, double unit) {
+    const double low = std::min(part.from, part.to);
+    const double high = std::max(part.from, part.to);
+    const bool from_low = low == 0 || high != 1;
+    const double half = 0.5 * (high - low) * length / unit;
     if (!(half > 0) || std::isinf(half)) return std::numeric_limits<double>::quiet_NaN();
     // half = m * 2^k with m in [1/2, 1): the shells around it have the radii 2^(k-1) and 2^k, and their mean is 3/4 *
     // 2^k.
     int k = 0;
     const double m = std::frexp(half, &k);
-    const double radius = std::ldexp(unit, m > 0.75 ? k : k - 1);
-    const double step = radius / length;
-    return start < end ? start + step : start - step;
+    const double step = std::ldexp(unit, m > 0.75 ? k : k - 1) / length;
+    return from_low ? low + step : high - step;
 }
 
 }  // namespace delmesh

@@ -9,7 +9,7 @@ namespace delmesh {
 /// (1 - t) * a + t * b, within two ulps of the larger coordinate; never overflows. Rounded to `precision`.
 [[nodiscard]] Vec3 point_between(const Vec3& a, const Vec3& b, double t, Precision precision);
 
-/// A part pq of an input edge ab, as parameters on ab: a < b, p at `from`, q at `to`.
+/// A part pq of an edge ab, as parameters on ab: a < b, p at `from`, q at `to`.
 struct EdgePart {
     VertexId a;
     VertexId b;
@@ -17,12 +17,14 @@ struct EdgePart {
     double to = 1;
 };
 
-/// The input edge that the physical edge of h is a part of; `from` belongs to origin(h).
+/// The edge that the edge of h is a part of: the one that its ends, or the split vertices among them, have in common;
+/// else the edge of h itself. `from` belongs to origin(h).
 [[nodiscard]] EdgePart part_of_input_edge(const MarkedMesh& marked, HalfedgeId h);
 
-/// The parameter on ab of the split vertex SV(e): the point of e nearest to its middle whose distance from an end is
-/// 2^k * unit. The end is an input vertex if there is one (the smaller of two); of two equally near points the one with
-/// the shorter distance is taken. Returns NaN where doubles can not express it.
-[[nodiscard]] double shell_parameter(const MarkedMesh& marked, HalfedgeId h, const EdgePart& part, double unit);
+/// The parameter on ab, which is `length` long, of the split vertex SV: the point of the part nearest to its middle
+/// whose distance from an end of the part is 2^k * unit. The end is a or b where the part reaches it (a, if it reaches
+/// both), else the one nearer to a. Of two equally near points the one nearer to that end is taken. NaN where doubles
+/// can not express it.
+[[nodiscard]] double shell_parameter(const EdgePart& part, double length, double unit);
 
 }  // namespace delmesh

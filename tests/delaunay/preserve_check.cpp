@@ -116,8 +116,7 @@ std::string check_tiling(const Mesh& before, const Mesh& after, const Provenance
     for (std::size_t i = 0; i < from.splits.size(); ++i) {
         const auto found = on_edge.find({from.splits[i].a, from.splits[i].b});
         // Elsewhere it lies on a planar input edge, as happens where a surface touches itself.
-        if (found != on_edge.end())
-            found->second.emplace_back(from.splits[i].t, VertexId(from.input_vertices + i));
+        if (found != on_edge.end()) found->second.emplace_back(from.splits[i].t, VertexId(from.input_vertices + i));
     }
     for (auto& [ends, chain] : on_edge) {
         std::sort(chain.begin(), chain.end());

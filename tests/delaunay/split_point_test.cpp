@@ -18,10 +18,7 @@ Mesh triangle(double length) {
 }
 
 double shell_distance(double length, double unit) {
-    Mesh mesh = triangle(length);
-    const MarkedMesh marked(mesh, std::vector<Mark>(3, Mark::physical), {FaceId(0)});
-    const EdgePart part = part_of_input_edge(marked, HalfedgeId(0));
-    return shell_parameter(marked, HalfedgeId(0), part, unit) * length;
+    return shell_parameter({VertexId(0), VertexId(1), 0, 1}, length, unit) * length;
 }
 
 TEST(ShellParameter, IsThePowerOfTwoNearestToTheMiddle) {
@@ -40,6 +37,14 @@ TEST(ShellParameter, FollowsTheUnit) {
     EXPECT_NEAR(shell_distance(10, 3), 6, 1e-12);
     EXPECT_NEAR(shell_distance(1e-200, 1e-200), 0.5e-200, 1e-212);
     EXPECT_NEAR(shell_distance(1e200, 1) / 1e200, 0.5, 0.17);
+}
+
+TEST(ShellParameter, IsMeasuredFromAnEndOfTheEdgeWhereThePartReachesOne) {
+    // From b: 8 - 6 = 2 and 8 - 4 = 4 are candidates on [5, 8] about the middle 6.5; 2 is nearer to 1.5.
+    EXPECT_DOUBLE_EQ(shell_parameter({VertexId(0), VertexId(1), 5.0 / 8, 1}, 8, 1), 6.0 / 8);
+    EXPECT_DOUBLE_EQ(shell_parameter({VertexId(0), VertexId(1), 1, 5.0 / 8}, 8, 1), 6.0 / 8);
+    // From a part's own end in the middle of the edge.
+    EXPECT_DOUBLE_EQ(shell_parameter({VertexId(0), VertexId(1), 5.0 / 8, 7.0 / 8}, 8, 1), 6.0 / 8);
 }
 
 TEST(ShellParameter, IsNotANumberWhereDoublesEnd) {

@@ -6,15 +6,32 @@
 #include "delmesh/delaunay/provenance.hpp"
 #include "delmesh/mesh/mesh.hpp"
 
+#include <array>
 #include <limits>
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace delmesh {
 
 enum class RemeshMode {
     preserve,  ///< the surface stays as it is: planar edges flip, all others are split (Algorithm 1 of the paper)
+    flip,      ///< any edge may flip; only what can not be flipped and the boundary are split (Algorithm 2)
+    feature,   ///< sharp edges are split, all others flip (section 6)
+};
+
+/// In which order edges are flipped in the modes flip and feature; docs/decisions/0005 has measurements.
+enum class FlipOrder {
+    worst,  ///< largest sum of opposite angles first, ties by index (the paper's)
+    fifo,
+    lifo,
+};
+
+/// What happens in mode flip when no edge can be flipped any more but some are not Delaunay yet.
+enum class FlipFinish {
+    keep_flipping,  ///< split these, then flip again, for at most 100 rounds; then as `literal`. Needs fewest splits
+    literal,        ///< Algorithm 2 as published: the surface is kept from here on, by Algorithm 1
 };
 
 /// Why a run ended. Whatever the reason, the mesh is valid and every vertex and face of it is accounted for.
@@ -27,9 +44,21 @@ enum class StopReason {
 
 [[nodiscard]] std::string_view name(StopReason reason);
 [[nodiscard]] std::span<const std::string_view> choices(RemeshMode);
+[[nodiscard]] std::span<const std::string_view> choices(FlipOrder);
+[[nodiscard]] std::span<const std::string_view> choices(FlipFinish);
 
 struct RemeshOptions {
     RemeshMode mode = RemeshMode::preserve;
+    /// Mode feature: edges whose faces deviate from flat by more than this are not flipped. 0 gives `preserve`, 180
+    /// `flip`.
+    double feature_angle_deg = 10;
+    /// Mode feature: edges of the input that are not flipped either, by their ends. Pairs that are no edges are
+    /// refused.
+    std::vector<std::array<VertexId, 2>> feature_edges;
+    /// Modes flip and feature: treat an edge as unflippable if a face would turn by more than 90 degrees.
+    bool no_foldover = false;
+    FlipOrder order = FlipOrder::worst;
+    FlipFinish finish = FlipFinish::keep_flipping;
     /// The unit of the concentric shells: split vertices lie at the distance 2^k * shell_unit_abs from an end of
     /// their edge. In units of the coordinates, above 0. The paper's delta.
     double shell_unit_abs = 1;
@@ -42,6 +71,16 @@ struct RemeshOptions {
     template <class Self, class Visitor>
     static void describe(Self& self, Visitor&& visit) {
         visit(self.mode, OptionInfo{.name = "mode", .help = "how the surface may change"});
+        visit(self.feature_angle_deg, OptionInfo{.name = "feature-angle",
+                                                 .unit = "deg",
+                                                 .lowest = 0,
+                                                 .highest = 180,
+                                                 .help = "mode feature: keep edges that deviate from flat by more"});
+        visit(self.no_foldover,
+              OptionInfo{.name = "no-foldover", .help = "split an edge whose flip would fold the surface"});
+        visit(self.order, OptionInfo{.name = "order", .help = "in which order edges are flipped"});
+        visit(self.finish,
+              OptionInfo{.name = "finish", .help = "mode flip: what to do when nothing can be flipped any more"});
         visit(self.shell_unit_abs,
               OptionInfo{.name = "shell-unit",
                          .unit = "abs",
@@ -56,7 +95,19 @@ struct RemeshReport {
     StopReason stop = StopReason::done;
     std::size_t flips = 0;
     std::size_t splits = 0;
-    /// Edges that had to be split after planar flips alone: no method that keeps the surface adds fewer vertices.
+    /// What was split: boundary edges; edges that the mode does not allow to flip; edges that could not be flipped
+    /// because the opposing edge exists (or would fold the surface, with no_foldover) and their like. They add up to
+    /// `splits`.
+    std::size_t splits_boundary = 0;
+    std::size_t splits_feature = 0;
+    std::size_t splits_unflippable = 0;
+    /// Modes flip and feature: unflippable edges met when flipping first came to an end, by how many faces of the flip
+    /// tetrahedron belonged to the mesh: 2, 3, 4 (section 4.3 of the paper).
+    std::array<std::size_t, 3> exposed{};
+    /// Faces made by flips whose normal turned by more than 90 degrees against the two faces before.
+    std::size_t foldovers = 0;
+    /// Mode preserve: edges that had to be split after planar flips alone: no method that keeps the surface adds fewer
+    /// vertices.
     std::size_t lower_bound = 0;
     /// The edge that stopped the run, where one did.
     std::optional<EdgeId> witness;

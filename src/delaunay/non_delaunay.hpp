@@ -1,7 +1,10 @@
 #pragma once
 
-#include "delmesh/exact/predicates.hpp"
+#include "delmesh/base/context.hpp"
 #include "delmesh/mesh/mesh.hpp"
+#include "exact/inline.hpp"
+
+#include <vector>
 
 namespace delmesh {
 
@@ -11,8 +14,12 @@ namespace delmesh {
     const Vec3& p = mesh.point(mesh.origin(h));
     const Vec3& q = mesh.point(mesh.target(h));
     const Vec3& u = mesh.point(mesh.apex(h));
-    const Sign sign = t.valid() ? delaunay_sign(p, q, u, mesh.point(mesh.apex(t))) : right_angle_sign(p, q, u);
+    const Sign sign = t.valid() ? exact::delaunay_sign_inline(p, q, u, mesh.point(mesh.apex(t)))
+                                : exact::right_angle_sign_inline(p, q, u);
     return sign == Sign::negative;
 }
+
+/// All edges that are not Delaunay, in the order of their ids. Parallel.
+[[nodiscard]] std::vector<HalfedgeId> find_non_delaunay(const Mesh& mesh, const Context* context);
 
 }  // namespace delmesh
