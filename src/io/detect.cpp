@@ -34,10 +34,35 @@ std::string_view first_word(std::string_view text) {
     return text.substr(0, static_cast<std::size_t>(std::ranges::find_if(text, is_blank) - text.begin()));
 }
 
+bool is_solid(std::string_view word) {
+    return word == "solid" || word == "SOLID" || word == "Solid";
+}
+
+/// True if the file is as long as a binary STL file with the number of facets that it says.
+bool has_size_of_stl(const Input& input, std::string_view text) {
+    if (text.size() < stl_header + 4) return false;
+    const std::uint64_t facets = little_endian(text.data() + stl_header);
+    return input.remaining() == stl_header + 4 + stl_facet * facets;
+}
+
 bool is_obj_keyword(std::string_view word) {
     constexpr std::array<std::string_view, 12> keywords{"v", "vt", "vn", "vp", "f",      "l",
                                                         "p", "o",  "g",  "s",  "mtllib", "usemtl"};
     return std::ranges::find(keywords, word) != keywords.end();
+}
+
+[[noreturn]] void fail_utf16(const Input& input) {
+    input.fail("expected ASCII or UTF-8 text, found UTF-16 text: save it as UTF-8");
+}
+
+/// Latin letters as UTF-16 without a byte order mark: every second byte is zero, and no other.
+bool looks_like_utf16(std::string_view text) {
+    constexpr std::size_t enough = 16;
+    if (text.size() < enough) return false;
+    for (std::size_t i = 0; i + 1 < enough; i += 2) {
+        if ((text[i] == '\0') == (text[i + 1] == '\0') || (text[i] == '\0') != (text[0] == '\0')) return false;
+    }
+    return true;
 }
 
 void refuse_foreign(const Input& input, std::string_view text) {
@@ -59,9 +84,7 @@ void refuse_foreign(const Input& input, std::string_view text) {
                         input.name() + ": expected PLY, OBJ, OFF or STL, found " + magic.what + ", which is not read");
         }
     }
-    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
-        input.fail("expected ASCII or UTF-8 text, found UTF-16 text: save it as UTF-8");
-    }
+    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) fail_utf16(input);
 }
 
 }  // namespace
@@ -69,10 +92,7 @@ void refuse_foreign(const Input& input, std::string_view text) {
 bool is_binary_stl(Input& input) {
     input.ensure(looked_at);
     const std::string_view text = input.view().substr(0, looked_at);
-    if (text.size() < stl_header + 4) return !text.starts_with("solid");
-    const std::uint64_t facets = little_endian(text.data() + stl_header);
-    if (input.remaining() == stl_header + 4 + stl_facet * facets) return true;
-    if (first_word(text) != "solid") return true;
+    if (has_size_of_stl(input, text) || !is_solid(first_word(text))) return true;
     return text.substr(0, 4 * stl_header).find('\0') != text.npos;
 }
 
@@ -81,14 +101,12 @@ std::optional<Format> detect_format(Input& input) {
     const std::string_view text = input.view().substr(0, looked_at);
     refuse_foreign(input, text);
     if (text.size() > 3 && text.starts_with("ply") && is_blank(text[3])) return Format::ply;
-    if (text.size() >= stl_header + 4 &&
-        input.remaining() == stl_header + 4 + stl_facet * std::uint64_t{little_endian(text.data() + stl_header)}) {
-        return Format::stl;
-    }
+    if (has_size_of_stl(input, text)) return Format::stl;
     const std::string_view word = first_word(text);
     if (parse_off_keyword(word)) return Format::off;
-    if (word == "solid") return Format::stl;
+    if (is_solid(word)) return Format::stl;
     if (is_obj_keyword(word)) return Format::obj;
+    if (looks_like_utf16(text)) fail_utf16(input);
     return std::nullopt;
 }
 

@@ -101,7 +101,7 @@ private:
     }
 
     void read_faces() {
-        builder_.soup.corners.reserve(3 * input_.plausible(faces_, 8));
+        builder_.soup.corners.reserve(input_.plausible(3 * faces_, 2));
         for (std::uint64_t f = 0; f < faces_; ++f) {
             begin_record("face", f, faces_);
             for (std::uint64_t n = read_count("the number of vertices of a face"); n > 0; --n)

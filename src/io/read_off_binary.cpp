@@ -19,13 +19,16 @@ class BinaryOff {
 public:
     BinaryOff(std::string_view data, const OffKind& kind) : data_(data), kind_(kind) {}
 
-    /// True if the data are a mesh in this dialect; else `problem()` and `position()` say why not.
+    /// True if the data are a mesh in this dialect; else `problem()` and `position()` say why not. In the dialect that
+    /// is documented, more may follow.
     bool read(SoupBuilder& builder) {
         const std::uint32_t dimension = kind_.any_dimension ? integer() : 3;
         points_ = integer();
         const std::uint32_t faces = integer();
         integer();  // the number of edges is not used
-        return ok() && read_points(dimension, builder.soup.points) && read_faces(faces, builder);
+        if (!ok() || !read_points(dimension, builder.soup.points) || !read_faces(faces, builder)) return false;
+        const bool documented = order == std::endian::big && face_colours;
+        return documented || position_ == data_.size() || fail("expected the end of the file");
     }
 
     [[nodiscard]] const std::string& problem() const { return problem_; }

@@ -21,7 +21,7 @@ public:
     void read() {
         for (std::size_t i = 0; i < header_.elements.size(); ++i) {
             const PlyElement& element = header_.elements[i];
-            if (element.properties.empty()) continue;
+            if (element.properties.empty() || element.count == 0) continue;
             if (PlyHeader::is_vertex(element)) {
                 read_vertices(element);
             } else if (PlyHeader::is_face(element)) {
@@ -76,7 +76,7 @@ private:
     }
 
     void read_faces(const PlyElement& element, std::size_t list) {
-        builder_.soup.corners.reserve(3 * input_.plausible(element.count, element.least_size(true) + 6));
+        builder_.soup.corners.reserve(input_.plausible(3 * element.count, 2));
         for (std::uint64_t f = 0; f < element.count; ++f) {
             begin_record(element, f);
             for_record(element, list, [&] {

@@ -48,7 +48,7 @@ public:
     void read() {
         for (std::size_t i = 0; i < header_.elements.size(); ++i) {
             const PlyElement& element = header_.elements[i];
-            if (element.properties.empty()) continue;
+            if (element.properties.empty() || element.count == 0) continue;
             if (PlyHeader::is_vertex(element)) {
                 read_vertices(element);
             } else if (PlyHeader::is_face(element)) {
@@ -131,8 +131,8 @@ private:
 
     // --- faces and strips ---
     void read_faces(const PlyElement& element, std::size_t list) {
-        builder_.soup.corners.reserve(3 * input_.plausible(element.count, element.least_size(false)));
         const PlyProperty& indices = element.properties[list];
+        builder_.soup.corners.reserve(input_.plausible(3 * element.count, size_of(indices.type)));
         const bool usual =
             element.properties.size() == 1 && size_of(indices.count_type) == 1 && size_of(indices.type) == 4;
         for (std::uint64_t f = 0; f < element.count;) {

@@ -74,28 +74,37 @@ public:
 
     PolygonSoup read() {
         bool in_solid = false;
-        while (scanner_.next_line()) {
-            if (scanner_.line_is_done()) continue;
+        while (find_word()) {
             const TextScanner at_word = scanner_;
             const std::string_view word = scanner_.word();
-            if (is_word(word, "solid")) {
-                in_solid = true;
-            } else if (is_word(word, "endsolid")) {
-                in_solid = false;
-            } else if (is_word(word, "facet") && in_solid) {
+            if (is_word(word, "facet") && in_solid) {
                 read_facet();
-            } else if (!is_word(word, "color")) {
+                continue;
+            }
+            const bool ends = is_word(word, "endsolid");
+            if (!ends && !is_word(word, "solid") && !is_word(word, "color")) {
                 at_word.fail_expected(in_solid ? "'facet' or 'endsolid'" : "'solid'");
             }
+            in_solid = !ends;
+            scanner_.skip_line();  // a name
         }
         if (in_solid) scanner_.fail_expected("'facet' or 'endsolid'");
         return std::move(builder_.soup);
     }
 
 private:
-    /// What follows "facet" on its line is not used: the normal follows from the vertices, and is often wrong.
+    bool find_word() {
+        while (scanner_.line_is_done()) {
+            if (!scanner_.next_line()) return false;
+        }
+        return true;
+    }
+
+    /// The normal is not used: it follows from the vertices, and is often wrong.
     void read_facet() {
-        next_line("'outer loop'");
+        TextScanner ahead = scanner_;
+        for (; !ahead.line_is_done() && !is_word(ahead.word(), "outer"); scanner_ = ahead) {
+        }
         need("outer", "'outer loop'");
         need("loop", "'outer loop'");
         for (;;) {
@@ -110,7 +119,6 @@ private:
             scanner_.fail(fmt::format("expected a facet of three vertices, found {}", builder_.open_corners()));
         }
         need("endfacet", "'endfacet'");
-        if (!scanner_.line_is_done()) scanner_.fail_expected("the end of the line");
         builder_.end_face();
     }
 
@@ -122,10 +130,6 @@ private:
                              ErrorCode::too_large);
         }
         builder_.add_corner(index_.add(point));
-    }
-
-    void next_line(std::string_view expected) {
-        if (!scanner_.next_line()) scanner_.fail_expected(expected);
     }
 
     void need(std::string_view keyword, std::string_view expected) {

@@ -33,6 +33,7 @@ public:
         skip_blanks();
         return cursor_ == end_ || (rules_.comment != '\0' && *cursor_ == rules_.comment);
     }
+    void skip_line() { cursor_ = end_; }
     /// The next word on this line, empty if there is none.
     std::string_view word();
 

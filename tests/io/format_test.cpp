@@ -1,1 +1,28 @@
-#include "io/io_support.hpp"
+#include "delmesh/io/format.hpp"
+
+#include <gtest/gtest.h>
+
+namespace delmesh {
+namespace {
+
+TEST(Format, NamesAreReadBack) {
+    for (const Format format : {Format::ply, Format::obj, Format::off, Format::stl}) {
+        const std::string lower(name(format));
+        EXPECT_EQ(format_from_name(lower), format);
+        EXPECT_EQ(format_from_name("." + lower), format);
+        EXPECT_EQ(format_from_path("some.dir/file.b." + lower), format);
+    }
+}
+
+TEST(Format, CaseDoesNotMatter) {
+    EXPECT_EQ(format_from_name("PLY"), Format::ply);
+    EXPECT_EQ(format_from_path("A.StL"), Format::stl);
+}
+
+TEST(Format, UnknownNamesAreNoFormat) {
+    for (const char* text : {"", ".", "pl", "plyx", "..ply", "glb"}) EXPECT_FALSE(format_from_name(text)) << text;
+    for (const char* path : {"", "ply", "dir.ply/file", ".ply"}) EXPECT_FALSE(format_from_path(path)) << path;
+}
+
+}  // namespace
+}  // namespace delmesh
