@@ -5,10 +5,10 @@
 #include "delmesh/io/write.hpp"
 
 #include <benchmark/benchmark.h>
+#include <unistd.h>
 #include <cmath>
 #include <filesystem>
 #include <string>
-#include <unistd.h>
 
 namespace delmesh {
 namespace {
@@ -93,7 +93,7 @@ void sizes(benchmark::internal::Benchmark* b) {
     b->Arg(10'000)->Arg(100'000)->Arg(1'000'000)->Arg(4'000'000)->Unit(benchmark::kMillisecond);
 }
 
-#define DELMESH_IO_BENCH(kind)                      \
+#define DELMESH_IO_BENCH(kind)                         \
     BENCHMARK_CAPTURE(read, kind, kind)->Apply(sizes); \
     BENCHMARK_CAPTURE(write, kind, kind)->Apply(sizes)
 

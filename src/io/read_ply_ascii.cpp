@@ -1,5 +1,6 @@
-#include "delmesh/mesh/rounding.hpp"
 #include "io/read_ply.hpp"
+
+#include "delmesh/mesh/rounding.hpp"
 
 #include <fmt/format.h>
 #include <cmath>

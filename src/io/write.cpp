@@ -1,13 +1,12 @@
 #include "delmesh/io/write.hpp"
-#include "delmesh/mesh/rounding.hpp"
 
 #include "delmesh/base/error.hpp"
+#include "delmesh/mesh/rounding.hpp"
 #include "io/messages.hpp"
 #include "io/writers.hpp"
 
 #include <fmt/format.h>
 #include <cmath>
-#include <limits>
 
 namespace delmesh {
 
@@ -23,8 +22,7 @@ Format format_of(const std::filesystem::path& path, const WriteOptions& options)
 }
 
 bool is_float(double value) {
-    if (!std::isfinite(value)) return true;
-    return std::fabs(value) <= std::numeric_limits<float>::max() && round_to_float(value) == value;
+    return !std::isfinite(value) || round_to_float(value) == value;
 }
 
 void check_floats(const std::filesystem::path& path, const Surface& surface) {

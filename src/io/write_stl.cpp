@@ -1,4 +1,5 @@
 #include "delmesh/base/error.hpp"
+#include "delmesh/mesh/rounding.hpp"
 #include "io/endian.hpp"
 #include "io/writers.hpp"
 
@@ -54,13 +55,10 @@ void write_ascii(OutputFile& file, const Surface& surface) {
         file.advance(put(file.room(4 * number_room), p));
         file.text(rest);
     };
-    const auto as_floats = [](const Vec3& p) {
-        return Vec3{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-    };
     file.text("solid delmesh\n");
     for (std::size_t f = 0; f < surface.face_count(); ++f) {
         const auto corners = corners_of(surface, f);
-        line("facet normal ", as_floats(unit_normal(corners)), "\n outer loop\n");
+        line("facet normal ", round_to_float(unit_normal(corners)), "\n outer loop\n");
         for (const Vec3& p : corners) line("  vertex ", p, "\n");
         file.text(" endloop\nendfacet\n");
     }
