@@ -1,0 +1,135 @@
+#pragma once
+// Triangles over vertices, with no promise about how they fit together: what the steps of a repair work on.
+
+#include "delmesh/base/context.hpp"
+#include "delmesh/repair/repair.hpp"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace delmesh::repairing {
+
+using Index = std::uint32_t;
+inline constexpr Index none = ~Index{0};
+
+/// Half-edge h belongs to face h/3 and leaves vertex corners[h]; a corner is named by the half-edge that leaves it.
+/// Vertices at one place keep their own numbers, so that faces which were joined in the input can be told from faces
+/// that merely touch: two faces are *joined* if they share an edge by number, and *meet* if they share it by place.
+struct Complex {
+    std::vector<Vec3> points;
+    std::vector<Index> place;    ///< for each vertex the smallest vertex at the same place
+    std::vector<Index> source;   ///< for each vertex the input vertex it is, or is a copy of
+    std::vector<Index> corners;  ///< three for each face
+    std::vector<Index> origin;   ///< for each face the input face it lies in
+    std::vector<char> turned;    ///< for each face whether it was turned round to agree with its component
+    std::vector<char> mended;    ///< for each face whether its component was joined, turned or cut
+
+    [[nodiscard]] std::size_t face_count() const { return origin.size(); }
+    [[nodiscard]] std::size_t halfedge_count() const { return corners.size(); }
+
+    static Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
+    static Index prev(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
+
+    [[nodiscard]] Index from(Index h) const { return corners[h]; }
+    [[nodiscard]] Index to(Index h) const { return corners[next(h)]; }
+    [[nodiscard]] Index place_from(Index h) const { return place[corners[h]]; }
+    [[nodiscard]] Index place_to(Index h) const { return place[corners[next(h)]]; }
+    [[nodiscard]] Index place_apex(Index h) const { return place[corners[prev(h)]]; }
+    [[nodiscard]] const Vec3& point(Index v) const { return points[v]; }
+
+    /// Face f and half-edge h after their face was turned round: the edge of h keeps its place, but its number changes.
+    void turn(std::size_t f) { std::swap(corners[3 * f + 1], corners[3 * f + 2]); }
+    static Index turned_halfedge(Index h) { return h - h % 3 + (2 - h % 3); }
+
+    /// True if h and g, at one edge, run in opposite directions.
+    [[nodiscard]] bool opposite(Index h, Index g) const { return place_from(h) == place_to(g); }
+    /// True if h and g join the same two vertices by number, in whatever direction.
+    [[nodiscard]] bool share_numbers(Index h, Index g) const {
+        return (from(h) == from(g) && to(h) == to(g)) || (from(h) == to(g) && to(h) == from(g));
+    }
+
+    /// Drops the faces for which `gone` says so; the others keep their order.
+    template <class Gone>
+    void drop_faces(Gone&& gone) {
+        std::size_t kept = 0;
+        for (std::size_t f = 0; f < face_count(); ++f) {
+            if (gone(f)) continue;
+            for (std::size_t i = 0; i < 3; ++i) corners[3 * kept + i] = corners[3 * f + i];
+            turned[kept] = turned[f];
+            mended[kept] = mended[f];
+            origin[kept++] = origin[f];
+        }
+        origin.resize(kept);
+        turned.resize(kept);
+        mended.resize(kept);
+        corners.resize(3 * kept);
+    }
+};
+
+/// The half-edges of a complex, grouped by the places that their edges join; in each group in ascending order.
+class EdgeGroups {
+public:
+    explicit EdgeGroups(const Complex& complex);
+
+    [[nodiscard]] std::size_t size() const { return starts_.size() - 1; }
+    [[nodiscard]] std::span<const Index> operator[](std::size_t g) const {
+        return {halfedges_.data() + starts_[g], starts_[g + 1] - starts_[g]};
+    }
+
+private:
+    std::vector<Index> halfedges_;
+    std::vector<Index> starts_;
+};
+
+/// What was found so far.
+class Log {
+public:
+    void add(Defect kind, std::size_t element) { note(kind, {element, 0}, 1); }
+    void add_pair(Defect kind, std::size_t a, std::size_t b) { note(kind, {a, b}, 2); }
+    void forget(Defect kind) { found_[static_cast<std::size_t>(kind)] = {}; }
+    [[nodiscard]] std::vector<Finding> findings() const;
+
+private:
+    void note(Defect kind, std::array<std::size_t, 2> place, std::size_t numbers);
+    std::array<Finding, defect_kinds> found_{};
+};
+
+/// Thrown inside a repair when the context was cancelled; never leaves it.
+struct Cancelled {};
+inline void check_cancelled(const Context* context) {
+    if (is_cancelled(context)) throw Cancelled();
+}
+
+// The steps, in their order. Each is the identity on its own result.
+
+/// Drops what names nothing or is not a number, and cuts the rest into triangles.
+[[nodiscard]] Complex sift(const PolygonSoup& soup, Log& log);
+/// Finds the vertices that are at one place; with a tolerance, moves clusters to one place first.
+void weld(Complex& complex, double tolerance_rel, Log& log);
+/// Drops faces with two corners at one place and flips faces without area away.
+void remove_degenerate(Complex& complex, Log& log, const Context* context);
+/// What is left of faces at one place.
+struct Doubled {
+    bool dropped = false;  ///< some were dropped
+    bool kept = false;     ///< some are still double, as both layers are needed
+};
+/// Drops faces at the place of another one, unless both layers are needed.
+Doubled remove_duplicates(Complex& complex, Log& log);
+
+/// For each half-edge the one it is joined with, or none.
+using Partners = std::vector<Index>;
+/// Joins the half-edges of each edge in pairs; at most one of each edge stays alone.
+[[nodiscard]] Partners pair_halfedges(const Complex& complex, Log& log, const Context* context);
+/// Turns faces so that partners run in opposite directions, and parts those that can not. Returns how much was parted,
+/// as a sum of lengths in a fixed unit: 0 if nothing was.
+std::uint64_t orient(Complex& complex, Partners& partners, Log& log, const Context* context);
+/// Exchanges partners at edges that would join the same two vertices twice, and numbers the vertices so that partners
+/// share their ends and nothing else does.
+void separate_fans(Complex& complex, Partners& partners, Log& log);
+/// Turns the outermost closed components outwards, and with them what lies inside. `partners` do not hold afterwards.
+void turn_outward(Complex& complex, const Partners& partners, Log& log);
+
+}  // namespace delmesh::repairing

@@ -1,0 +1,154 @@
+// Faces at one place. Two layers are kept only where they are needed; docs/repair.md, "Double faces", says when.
+
+#include "repair/complex.hpp"
+#include "repair/union_find.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace delmesh::repairing {
+namespace {
+
+/// Two faces at one place, first < second, that are left when further copies in pairs are gone.
+struct Layers {
+    Index first;
+    Index second;
+    bool opposite;  ///< oriented differently
+};
+
+class DuplicateRemover {
+public:
+    DuplicateRemover(Complex& complex, Log& log)
+        : complex_(complex),
+          log_(log),
+          groups_(complex),
+          gone_(complex.face_count(), 0) {}
+
+    Doubled run() {
+        for (std::size_t g = 0; g < groups_.size(); ++g) find_in(groups_[g]);
+        Doubled result;
+        if (!layers_.empty()) result.kept = judge_patches();
+        result.dropped = std::find(gone_.begin(), gone_.end(), 1) != gone_.end();
+        if (!result.dropped) return result;
+        for (std::size_t f = 0; f < gone_.size(); ++f)
+            if (gone_[f] != 0) log_.add(Defect::duplicate_face, complex_.origin[f]);
+        complex_.drop_faces([&](std::size_t f) { return gone_[f] != 0; });
+        return result;
+    }
+
+private:
+    /// Finds the faces at one place that have their largest place opposite to this edge, so that each is found once.
+    void find_in(std::span<const Index> group) {
+        if (group.size() < 2) return;
+        const Index high = std::max(complex_.place_from(group[0]), complex_.place_to(group[0]));
+        sides_.clear();
+        for (const Index h : group)
+            if (complex_.place_apex(h) > high) sides_.push_back(h);
+        if (sides_.size() < 2) return;
+        std::stable_sort(sides_.begin(), sides_.end(),
+                         [&](Index a, Index b) { return complex_.place_apex(a) < complex_.place_apex(b); });
+        for (auto run = sides_.begin(); run != sides_.end();) {
+            const auto end = std::find_if(run, sides_.end(),
+                                          [&](Index h) { return complex_.place_apex(h) != complex_.place_apex(*run); });
+            if (end - run > 1) reduce({run, end});
+            run = end;
+        }
+    }
+
+    /// Of an odd number of faces at one place the first is kept, of an even number two, oriented differently if there
+    /// are such: that does not change the parity of any edge.
+    void reduce(std::span<const Index> sides) {
+        for (const Index h : sides) gone_[h / 3] = 1;
+        gone_[sides[0] / 3] = 0;
+        if (sides.size() % 2 == 1) return;
+        const auto other =
+            std::find_if(sides.begin(), sides.end(), [&](Index h) { return complex_.opposite(h, sides[0]); });
+        const bool opposite = other != sides.end();
+        const Index second = opposite ? *other : sides[1];
+        gone_[second / 3] = 0;
+        layers_.push_back({sides[0] / 3, second / 3, opposite});
+    }
+
+    /// What decides about a patch: double faces that are connected by edges.
+    struct Patch {
+        std::size_t size = 0;
+        std::size_t opposite = 0;  ///< double faces whose layers are oriented differently
+        bool alone = true;         ///< no edge has a face that is not double
+        std::size_t rim = 0;       ///< edges with an odd number of double faces
+        std::ptrdiff_t opened =
+            0;  ///< edges that would become odd if one layer went, less those that would become even
+
+        /// A patch by itself stays double if it is a flat closed surface; one that hangs together with other faces does
+        /// if that keeps holes away.
+        [[nodiscard]] bool stays_double() const { return alone ? rim > 0 && 2 * opposite > size : opened > 0; }
+    };
+
+    bool judge_patches() {
+        layer_of_.assign(complex_.face_count(), none);
+        for (Index i = 0; i < layers_.size(); ++i) layer_of_[layers_[i].first] = layer_of_[layers_[i].second] = i;
+        UnionFind patch_of(layers_.size());
+        for (std::size_t g = 0; g < groups_.size(); ++g) connect(groups_[g], patch_of);
+        std::vector<Patch> patches(layers_.size());
+        for (Index i = 0; i < layers_.size(); ++i) {
+            Patch& patch = patches[patch_of.find(i)];
+            ++patch.size;
+            patch.opposite += layers_[i].opposite ? 1 : 0;
+        }
+        for (std::size_t g = 0; g < groups_.size(); ++g) account(groups_[g], patch_of, patches);
+        bool any_kept = false;
+        for (Index i = 0; i < layers_.size(); ++i) {
+            if (patches[patch_of.find(i)].stays_double())
+                any_kept = true;
+            else
+                gone_[layers_[i].second] = 1;
+        }
+        return any_kept;
+    }
+
+    void connect(std::span<const Index> group, UnionFind& patch_of) const {
+        Index first = none;
+        for (const Index h : group) {
+            const Index layer = layer_of_[h / 3];
+            if (layer == none) continue;
+            if (first == none) first = layer;
+            patch_of.unite(first, layer);
+        }
+    }
+
+    void account(std::span<const Index> group, UnionFind& patch_of, std::vector<Patch>& patches) const {
+        std::size_t single = 0;
+        std::size_t in_layers = 0;
+        Index layer = none;
+        for (const Index h : group) {
+            if (layer_of_[h / 3] != none) {
+                layer = layer_of_[h / 3];
+                ++in_layers;
+            } else if (gone_[h / 3] == 0) {
+                ++single;
+            }
+        }
+        if (layer == none) return;
+        Patch& patch = patches[patch_of.find(layer)];
+        const std::size_t doubles = in_layers / 2;
+        if (single > 0) patch.alone = false;
+        if (doubles % 2 == 0) return;
+        ++patch.rim;
+        patch.opened += single % 2 == 0 ? 1 : -1;
+    }
+
+    Complex& complex_;
+    Log& log_;
+    EdgeGroups groups_;
+    std::vector<char> gone_;
+    std::vector<Layers> layers_;
+    std::vector<Index> layer_of_;
+    std::vector<Index> sides_;
+};
+
+}  // namespace
+
+Doubled remove_duplicates(Complex& complex, Log& log) {
+    return DuplicateRemover(complex, log).run();
+}
+
+}  // namespace delmesh::repairing

@@ -1,0 +1,158 @@
+#include "delmesh/repair/repair.hpp"
+
+#include "delmesh/base/error.hpp"
+#include "repair/complex.hpp"
+#include "repair/lines.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace delmesh {
+namespace repairing {
+namespace {
+
+/// Joins what meets, cuts what can not be joined, and turns what faces the wrong way. Usually once: what is left of a
+/// surface that can not be oriented, or of faces at one place, may look different afterwards, and then it takes until
+/// nothing changes any more. Each round drops faces or shortens the cuts, or is the last.
+void make_manifold(Complex& complex, Log& log, const Context* context) {
+    std::uint64_t cut_before = std::numeric_limits<std::uint64_t>::max();
+    Log later;
+    for (bool is_first = true;; is_first = false) {
+        const Doubled doubled = remove_duplicates(complex, log);
+        if (doubled.dropped) cut_before = std::numeric_limits<std::uint64_t>::max();
+        Partners partners = pair_halfedges(complex, is_first ? log : later, context);
+        const std::uint64_t cut = orient(complex, partners, log, context);
+        separate_fans(complex, partners, log);
+        turn_outward(complex, partners, log);
+        if ((cut == 0 && !doubled.kept) || cut >= cut_before) return;
+        cut_before = cut;
+    }
+}
+
+/// The soup that comes of a complex, and what is to be said about it.
+class Outcome {
+public:
+    Outcome(const PolygonSoup& input, const Complex& complex, Log& log) : input_(input), complex_(complex), log_(log) {
+        number_vertices();
+        report_turned_faces();
+        report_lost_vertices();
+        write_soup();
+    }
+
+    /// True if nothing was changed, `sifted` being the corners of the input's triangles.
+    [[nodiscard]] bool is_input(const std::vector<Index>& sifted) const {
+        const std::size_t n = input_.points.size();
+        return soup.points.size() == n && complex_.points.size() == n && soup.corners == sifted &&
+               soup.lines == input_.lines && std::equal(soup.points.begin(), soup.points.end(), input_.points.begin());
+    }
+
+    PolygonSoup soup;
+    std::vector<VertexId> vertex_origin;
+    std::vector<FaceId> face_origin;
+
+private:
+    void number_vertices() {
+        number_.assign(complex_.points.size(), none);
+        for (const Index v : complex_.corners) number_[v] = 0;
+        Index count = 0;
+        for (Index& n : number_)
+            if (n != none) n = count++;
+    }
+
+    void report_turned_faces() {
+        for (std::size_t f = 0; f < complex_.face_count(); ++f)
+            if (complex_.turned[f] != 0) log_.add(Defect::inconsistent_face, complex_.origin[f]);
+    }
+
+    void report_lost_vertices() {
+        std::vector<char> place_kept(complex_.points.size(), 0);
+        for (const Index v : complex_.corners) place_kept[complex_.place[v]] = 1;
+        for (std::size_t v = 0; v < input_.points.size(); ++v) {
+            // Not finite or moved: has been reported.
+            if (number_[v] != none || !(complex_.points[v] == input_.points[v]) || !is_finite(input_.points[v]))
+                continue;
+            log_.add(place_kept[complex_.place[v]] != 0 ? Defect::duplicate_vertex : Defect::isolated_vertex, v);
+        }
+    }
+
+    void write_soup() {
+        soup.stored = input_.stored;
+        for (std::size_t v = 0; v < number_.size(); ++v) {
+            if (number_[v] == none) continue;
+            soup.points.push_back(complex_.points[v]);
+            vertex_origin.emplace_back(complex_.source[v]);
+        }
+        soup.corners.reserve(complex_.corners.size());
+        for (const Index v : complex_.corners) soup.corners.push_back(number_[v]);
+        for (const Index f : complex_.origin) face_origin.emplace_back(f);
+        soup.lines = carry_lines(input_, complex_, number_, log_);
+    }
+
+    const PolygonSoup& input_;
+    const Complex& complex_;
+    Log& log_;
+    std::vector<Index> number_;
+};
+
+void check_options(const RepairOptions& options) {
+    if (options.weld_tolerance_rel >= 0 && options.weld_tolerance_rel <= 1) return;
+    throw Error(ErrorCode::bad_argument,
+                fmt::format("the tolerance of welding is {}; it must be between 0 and 1", options.weld_tolerance_rel));
+}
+
+template <class Id>
+std::vector<Id> all_ids(std::size_t count) {
+    std::vector<Id> ids;
+    ids.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) ids.emplace_back(i);
+    return ids;
+}
+
+RepairReport run(PolygonSoup& soup, const RepairOptions& options, const Context* context) {
+    Log log;
+    report_progress(context, "repair", 0);
+    Complex complex = sift(soup, log);
+    const bool all_passed = log.findings().empty();
+    const std::vector<Index> sifted = complex.corners;
+    check_cancelled(context);
+    weld(complex, options.weld_tolerance_rel, log);
+    check_cancelled(context);
+    report_progress(context, "repair", 0.2);
+    remove_degenerate(complex, log, context);
+    report_progress(context, "repair", 0.4);
+    make_manifold(complex, log, context);
+    Outcome outcome(soup, complex, log);
+
+    RepairReport report;
+    report.changed = !all_passed || !outcome.is_input(sifted);
+    if (report.changed) {
+        report.findings = log.findings();
+        report.vertex_origin = std::move(outcome.vertex_origin);
+        report.face_origin = std::move(outcome.face_origin);
+        soup = std::move(outcome.soup);
+    } else {
+        // Polygons stay polygons.
+        report.vertex_origin = all_ids<VertexId>(soup.points.size());
+        report.face_origin = all_ids<FaceId>(soup.face_count());
+    }
+    report_progress(context, "repair", 1);
+    return report;
+}
+
+}  // namespace
+}  // namespace repairing
+
+RepairReport repair(PolygonSoup& soup, const RepairOptions& options, const Context* context) {
+    repairing::check_options(options);
+    try {
+        return repairing::run(soup, options, context);
+    } catch (const repairing::Cancelled&) {
+        RepairReport report;
+        report.cancelled = true;
+        return report;
+    }
+}
+
+}  // namespace delmesh
