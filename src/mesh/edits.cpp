@@ -222,6 +222,10 @@ void remove_face(Mesh& mesh, FaceId f) {
     kill(edit, h);
 }
 
+void remove_isolated(Mesh& mesh, VertexId v) {
+    MeshEditor(mesh).points[v.index()].x = std::numeric_limits<double>::quiet_NaN();
+}
+
 CompactMap compact(Mesh& mesh) {
     CompactMap map;
     MeshEditor edit(mesh);

@@ -39,6 +39,9 @@ VertexId split_edge(Mesh& mesh, HalfedgeId h, const Vec3& point);
 /// ids until `compact`, but `is_live` is false for them. Requires `can_collapse`. Cost: O(valence of the target).
 void collapse(Mesh& mesh, HalfedgeId h, const Vec3& point);
 
+/// Takes away a vertex that has no face: like what `collapse` takes away, it keeps its id until `compact`. O(1).
+void remove_isolated(Mesh& mesh, VertexId v);
+
 /// Old ids to new ones; not valid for what died.
 struct CompactMap {
     std::vector<VertexId> vertex;

@@ -1,0 +1,235 @@
+#include "simplify/decimator.hpp"
+
+#include "delmesh/mesh/edits.hpp"
+#include "delmesh/mesh/rounding.hpp"
+#include "simplify/walk.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace delmesh {
+namespace {
+
+/// How far a place that was found earlier may have become dearer and still be taken.
+constexpr double cost_tolerance = 1e-3;
+/// Collapses between two looks at the context.
+constexpr std::size_t report_interval = 1024;
+
+/// Brings the mesh to about unit size, exactly.
+double power_of_two_scale(const Mesh& mesh) {
+    Vec3 low, high;
+    bool any = false;
+    for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+        if (!mesh.halfedge(VertexId(v)).valid()) continue;
+        const Vec3& p = mesh.points()[v];
+        if (!any) low = high = p;
+        any = true;
+        for (int axis = 0; axis < 3; ++axis) {
+            low[axis] = std::min(low[axis], p[axis]);
+            high[axis] = std::max(high[axis], p[axis]);
+        }
+    }
+    const double diagonal = norm(high * 0.5 - low * 0.5);
+    if (!(diagonal > 0)) return 1;
+    return std::ldexp(1.0, std::clamp(-std::ilogb(diagonal), -1022, 1022));
+}
+
+std::size_t count_used(const Mesh& mesh) {
+    std::size_t used = 0;
+    for (std::size_t v = 0; v < mesh.vertex_count(); ++v) used += mesh.halfedge(VertexId(v)).valid() ? 1 : 0;
+    return used;
+}
+
+}  // namespace
+
+Decimator::Decimator(Mesh& mesh, const Tuning& tuning, const DecimatorLimits& limits)
+    : mesh_(mesh),
+      tuning_(tuning),
+      limits_(limits),
+      scale_(power_of_two_scale(mesh)),
+      placer_(tuning_),
+      weights_(mesh, scale_, tuning_),
+      vertices_(count_used(mesh)),
+      blocked_(mesh.halfedge_count()),
+      known_(mesh.halfedge_count()) {
+    queue_.reset(mesh.halfedge_count());
+    for (std::size_t i = 0; i < mesh.halfedge_count(); ++i) {
+        const HalfedgeId h(i);
+        if (mesh.names_edge(h)) queue_.append(key_of(h), h.value());
+    }
+    queue_.heapify();
+}
+
+EdgeCost Decimator::cost_of(HalfedgeId h) const {
+    const VertexId u = mesh_.origin(h);
+    const VertexId v = mesh_.target(h);
+    const Vec3 to_v = (mesh_.point(v) - mesh_.point(u)) * scale_;
+    EdgeCost cost;
+    cost.steered = weights_.current(v).moved_to(-to_v);
+    cost.steered += weights_.current(u);
+    cost.middle = to_v * 0.5;
+    cost.trace = cost.steered.trace();
+    cost.steered.add_point(cost.middle, tuning_.regular * cost.trace);
+    cost.steered.c += tuning_.length_cost * cost.trace * squared_norm(to_v);
+    return cost;
+}
+
+double Decimator::key_of(HalfedgeId h) const {
+    const EdgeCost cost = cost_of(h);
+    const auto factors = factorise(cost.steered);
+    return std::max(0.0, cost.steered(factors ? factors->lowest : cost.middle));
+}
+
+/// The volume under the star is kept where normal.w = offset.
+void Decimator::add_volume(EdgeCost& cost) const {
+    Vec3 normal;
+    double offset = 0;
+    for (std::size_t i = 0; i < star_.face_count(); ++i) {
+        normal = normal + star_.ring[i].old_normal;
+        offset += dot(star_.ring[i].old_normal, star_.ring[i].point);
+    }
+    for (int i = 0; i < star_.dying_count; ++i) normal = normal + star_.dying[i];  // through u, the origin
+    const double n2 = squared_norm(normal);
+    if (n2 > 0) cost.steered.add_plane(normal, offset, tuning_.volume * cost.trace / n2);
+}
+
+void Decimator::enqueue(HalfedgeId h) {
+    forget(h);
+    queue_.set(key_of(h), h.value());
+}
+
+void Decimator::forget(HalfedgeId h) {
+    blocked_.remove(h);
+    known_.remove(h);
+}
+
+void Decimator::block(HalfedgeId h, Blocker why) {
+    ++counts_.blocked[static_cast<std::size_t>(why)];
+    Witness witness{why, {}};
+    if (why == Blocker::fold || why == Blocker::subtending || why == Blocker::incident) {
+        const std::size_t i = placer_.witness();
+        const std::size_t j = star_.after(i);
+        witness.vertices = {star_.ring[i].vertex, star_.ring[j].vertex, star_.ring[star_.after(j)].vertex,
+                            star_.ring[i].outer};
+    }
+    known_.remove(h);
+    blocked_.set(h, witness);
+}
+
+std::array<std::size_t, blocker_count> Decimator::count_blocked() const {
+    std::array<std::size_t, blocker_count> counts{};
+    for (std::size_t i = 0; i < mesh_.halfedge_count(); ++i)
+        if (const Witness* witness = blocked_.find(HalfedgeId(i))) ++counts[static_cast<std::size_t>(witness->why)];
+    return counts;
+}
+
+void Decimator::run(std::size_t vertices, const Context* context) {
+    const std::size_t start = vertices_;
+    while (vertices_ > vertices && !queue_.empty()) {
+        if (++counts_.popped % report_interval == 0) {
+            if (is_cancelled(context)) return;
+            report_progress(context, "simplify",
+                            static_cast<double>(start - vertices_) / static_cast<double>(start - vertices));
+        }
+        process(queue_.pop());
+    }
+}
+
+std::optional<Place> Decimator::find_place(HalfedgeId h, const EdgeCost& cost) {
+    const Known* known = known_.find(h);
+    if (known != nullptr && known->version == version_of_star()) {
+        ++counts_.reused;
+        const Vec3 w = star_.frame.to_local(known->point);
+        return Place{w, cost.steered(w)};
+    }
+    known_.remove(h);
+    return tuning_.paper ? placer_.paper(star_, cost) : placer_.best(star_, cost);
+}
+
+/// Changes whenever a place that was found may no longer be the best.
+std::uint32_t Decimator::version_of_star() const {
+    std::uint32_t sum = 0;
+    for (const Star::Corner& corner : star_.ring) sum += weights_.version(corner.vertex);
+    return sum;
+}
+
+/// The place as it will be stored.
+Vec3 Decimator::settled(const Vec3& local) const {
+    const Vec3 w = star_.frame.to_mesh(local);
+    return limits_.precision == Precision::float32 ? round_to_float(w) : w;
+}
+
+bool Decimator::exceeds_error(const Quadric& merged) {
+    const double trace = merged.trace();
+    const double error = trace > 0 ? std::sqrt(std::max(0.0, merged.c) / trace) / scale_ : 0;
+    if (limits_.error > 0 && error > limits_.error) return true;
+    worst_error_ = std::max(worst_error_, error);
+    return false;
+}
+
+void Decimator::process(const Queue::Entry& entry) {
+    const HalfedgeId h(entry.edge);
+    if (!gather(mesh_, h, scale_, star_)) return block(h, Blocker::topology);
+    EdgeCost cost = cost_of(h);
+    if (tuning_.volume > 0) add_volume(cost);
+    const auto place = find_place(h, cost);
+    if (!place) return block(h, placer_.blocker());
+    const Vec3 w = settled(place->point);
+    if (!queue_.empty() && place->cost > entry.key * (1 + cost_tolerance) && place->cost > queue_.top().key) {
+        ++counts_.requeued;
+        queue_.set(place->cost, h.value());
+        known_.set(h, {w, version_of_star()});
+        return;
+    }
+    if (tuning_.constrained && !keeps_delaunay(mesh_, star_, w)) return block(h, Blocker::rounding);
+    const Vec3 local = star_.frame.to_local(w);
+    Quadric merged = weights_.history(star_.u).moved_to(local);
+    merged += weights_.history(star_.v).moved_to(local - star_.v_point);
+    if (exceeds_error(merged)) return block(h, Blocker::error);
+    accept(h, w, merged);
+}
+
+void Decimator::accept(HalfedgeId h, const Vec3& w, const Quadric& merged) {
+    const VertexId kept = star_.u;
+    const VertexId gone = star_.v;
+    const auto drop = [&](HalfedgeId at) {
+        const HalfedgeId e = Mesh::halfedge(mesh_.edge(at));
+        queue_.remove(e.value());
+        forget(e);
+    };
+    const HalfedgeId t = mesh_.twin(h);
+    forget(h);
+    drop(Mesh::next(h)), drop(Mesh::prev(h));
+    if (t.valid()) drop(Mesh::next(t)), drop(Mesh::prev(t));
+    collapse(mesh_, h, w);
+    --vertices_;
+    ++counts_.collapses;
+    weights_.set_history(kept, merged);
+    weights_.refresh(kept);
+    for (const Star::Corner& corner : star_.ring) weights_.refresh(corner.vertex);
+    each_edge(mesh_, kept, [&](HalfedgeId e) { enqueue(e); });
+    for (const Star::Corner& corner : star_.ring) {
+        wake_around(corner.vertex, kept, gone);
+        if (corner.outer.valid()) wake_around(corner.outer, kept, gone);
+    }
+}
+
+/// Blocked edges at v go back into the queue if what blocked them has changed.
+void Decimator::wake_around(VertexId v, VertexId kept, VertexId gone) {
+    const auto is_touched = [&](const Witness& witness) {
+        bool known = false;
+        for (const VertexId x : witness.vertices) {
+            if (x == kept || x == gone) return true;
+            known = known || x.valid();
+        }
+        return !known;
+    };
+    each_edge(mesh_, v, [&](HalfedgeId e) {
+        const Witness* witness = blocked_.find(e);
+        if (witness == nullptr || !is_touched(*witness)) return;
+        ++counts_.woken;
+        enqueue(e);
+    });
+}
+
+}  // namespace delmesh

@@ -1,0 +1,87 @@
+#pragma once
+// The loop of collapses: cheapest edge first, each one checked exactly before it is made.
+
+#include "delmesh/base/context.hpp"
+#include "delmesh/mesh/mesh.hpp"
+#include "simplify/placement.hpp"
+#include "simplify/queue.hpp"
+#include "simplify/slots.hpp"
+#include "simplify/star.hpp"
+#include "simplify/tuning.hpp"
+#include "simplify/weights.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace delmesh {
+
+struct DecimatorLimits {
+    double error = 0;  ///< largest distance to the planes of the history, in the mesh's units; 0: none
+    Precision precision = Precision::float64;
+};
+
+struct DecimatorCounts {
+    std::size_t collapses = 0, popped = 0, requeued = 0, woken = 0, reused = 0;
+    std::array<std::size_t, blocker_count> blocked{};
+};
+
+class Decimator {
+public:
+    /// The mesh must be Delaunay and must outlive the decimator.
+    Decimator(Mesh& mesh, const Tuning& tuning, const DecimatorLimits& limits = {});
+
+    /// Collapses until so many vertices are left, nothing can be collapsed any more, or the context is cancelled.
+    void run(std::size_t vertices, const Context* context = nullptr);
+
+    /// Vertices that have faces.
+    [[nodiscard]] std::size_t vertices() const { return vertices_; }
+    [[nodiscard]] double worst_error() const { return worst_error_; }
+    /// The edges that are blocked now, by what blocked them.
+    [[nodiscard]] std::array<std::size_t, blocker_count> count_blocked() const;
+    [[nodiscard]] const DecimatorCounts& counts() const { return counts_; }
+    [[nodiscard]] const Placer& placer() const { return placer_; }
+
+private:
+    struct Witness {
+        Blocker why = Blocker::none;
+        /// The vertices of the condition that failed; none valid: any change nearby may help.
+        std::array<VertexId, 4> vertices;
+    };
+
+    struct Known {
+        Vec3 point;
+        std::uint32_t version = 0;
+    };
+
+    [[nodiscard]] EdgeCost cost_of(HalfedgeId h) const;
+    [[nodiscard]] double key_of(HalfedgeId h) const;
+    void add_volume(EdgeCost& cost) const;
+    void enqueue(HalfedgeId h);
+    void forget(HalfedgeId h);
+    void block(HalfedgeId h, Blocker why);
+    void process(const Queue::Entry& entry);
+    [[nodiscard]] std::optional<Place> find_place(HalfedgeId h, const EdgeCost& cost);
+    [[nodiscard]] std::uint32_t version_of_star() const;
+    [[nodiscard]] Vec3 settled(const Vec3& local) const;
+    [[nodiscard]] bool exceeds_error(const Quadric& merged);
+    void accept(HalfedgeId h, const Vec3& w, const Quadric& merged);
+    void wake_around(VertexId v, VertexId kept, VertexId gone);
+
+    Mesh& mesh_;
+    const Tuning tuning_;
+    const DecimatorLimits limits_;
+    const double scale_;
+    Placer placer_;
+    VertexWeights weights_;
+    std::size_t vertices_ = 0;
+    double worst_error_ = 0;
+    Slots<Witness> blocked_;
+    /// Places found for edges that went back into the queue because others were cheaper.
+    Slots<Known> known_;
+    Queue queue_;
+    Star star_;
+    DecimatorCounts counts_;
+};
+
+}  // namespace delmesh

@@ -1,0 +1,176 @@
+#include "simplify/placement.hpp"
+
+#include "simplify/paper_region.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace delmesh {
+
+bool Placer::fits(const Star& star, const Vec3& w) {
+    ++evaluations_;
+    last_ = find_blocker(star, w, fail_first_);
+    if (!tuning_.constrained && last_ >= Blocker::subtending) last_ = Blocker::none;
+    return last_ == Blocker::none;
+}
+
+void Placer::bisect(const Star& star, const EdgeCost& cost, const Vec3& goal, Place& place) {
+    const Vec3 start = place.point;
+    double low = 0;
+    double step = 0.5;
+    for (int i = 0; i < tuning_.bisections; ++i, step *= 0.5) {
+        const double t = low + step;
+        const Vec3 w = start + (goal - start) * t;
+        if (!fits(star, w)) continue;
+        low = t;
+        place = {w, cost.steered(w)};
+    }
+}
+
+namespace {
+
+/// The gradient of the angle at `at` of the triangle (w, at, other) with respect to w: a turn of w around `at` away
+/// from `other`.
+Vec3 angle_gradient(const Vec3& w, const Vec3& at, const Vec3& unit_normal_towards_other) {
+    const Vec3 arm = w - at;
+    return cross(unit_normal_towards_other, arm) * (1 / squared_norm(arm));
+}
+
+/// An angle as a unit complex number: no libm function, whose bits differ between systems, gets into the result.
+struct Angle {
+    double cosine = 0;
+    double sine = 1;
+
+    /// From the dot and the length of the cross product of the two arms.
+    static Angle of(double dot_product, double cross_length) {
+        const double scale = 1 / std::sqrt(dot_product * dot_product + cross_length * cross_length);
+        return {dot_product * scale, cross_length * scale};
+    }
+    static Angle from_cot(double cot) { return of(cot, 1); }
+};
+
+Angle operator+(Angle a, Angle b) {
+    return {a.cosine * b.cosine - a.sine * b.sine, a.sine * b.cosine + a.cosine * b.sine};
+}
+
+/// Grows with pi - angle like that angle near zero; algebraic.
+double slack(Angle angle) {
+    const double sine = angle.sine;
+    if (angle.cosine <= 0) return sine;
+    return sine >= 0 ? 2 - sine : -2 - sine;
+}
+
+}  // namespace
+
+void Placer::linearise(const Star& star, const Vec3& w) {
+    constexpr Angle right{};
+    const std::size_t size = star.ring.size();
+    const std::size_t faces = star.face_count();
+    half_spaces_.clear();
+    struct Part {
+        Angle a, b;
+        Vec3 grad_a, grad_b;
+    };
+    thread_local std::vector<Part> parts;
+    parts.assign(size, {});
+    const auto add = [&](double value, const Vec3& gradient) {
+        half_spaces_.push_back({gradient, dot(gradient, w) - value});
+    };
+    for (std::size_t i = 0; i < faces; ++i) {
+        const Vec3& p = star.ring[i].point;
+        const Vec3& q = star.ring[star.after(i)].point;
+        const Vec3 a = p - w, b = q - w, side = q - p;
+        Vec3 n = cross(a, b);
+        const double area = std::sqrt(squared_norm(n));
+        n = n * (1 / area);
+        parts[i].a = Angle::of(-dot(a, side), area);
+        parts[i].b = Angle::of(dot(b, side), area);
+        // n points along (w,p,q). At p the other arm is q, which lies clockwise of w; at q the other way round.
+        parts[i].grad_a = angle_gradient(w, p, n);
+        parts[i].grad_b = angle_gradient(w, q, -n);
+        const Angle outer = star.ring[i].outer.valid() ? Angle::from_cot(star.ring[i].outer_cot) : right;
+        add(slack(outer + Angle::of(dot(a, b), area)), parts[i].grad_a + parts[i].grad_b);
+    }
+    for (std::size_t i = 0; i < size; ++i) {
+        const bool first = !star.closed && i == 0;
+        const bool last = !star.closed && i + 1 == size;
+        const std::size_t before = i == 0 ? size - 1 : i - 1;
+        const Angle from_before = first ? right : parts[before].a;
+        const Angle from_after = last ? right : parts[i].b;
+        const Vec3 gradient = (first ? Vec3{} : parts[before].grad_a) + (last ? Vec3{} : parts[i].grad_b);
+        add(slack(from_before + from_after), -gradient);
+    }
+}
+
+void Placer::descend(const Star& star, const EdgeCost& cost, Place& place, bool feasible, bool& found) {
+    found = feasible;
+    const auto factors = factorise(cost.steered);
+    if (!factors) return;
+    Vec3 at = place.point;
+    for (int step = 0; step < tuning_.sqp_steps; ++step) {
+        linearise(star, at);
+        ++programs_;
+        const auto goal = minimise(*factors, half_spaces_);
+        if (!goal) return;
+        if (fits(star, *goal)) {
+            const Place there{*goal, cost.steered(*goal)};
+            if (found && !(there.cost < place.cost * (1 - 1e-3))) {
+                if (there.cost < place.cost) place = there;
+                return;
+            }
+            place = there;
+            found = true;
+            at = *goal;
+            continue;
+        }
+        if (found) {
+            const double before = place.cost;
+            bisect(star, cost, *goal, place);
+            if (!(place.cost < before * (1 - 1e-3))) return;
+            at = place.point;
+        } else {
+            at = *goal;
+        }
+    }
+}
+
+std::optional<Place> Placer::best(const Star& star, const EdgeCost& cost) {
+    fail_first_ = 0;
+    const auto factors = factorise(cost.steered);
+    Vec3 goal = cost.middle;
+    if (factors) goal = factors->lowest;
+    if (fits(star, goal)) return Place{goal, cost.steered(goal)};
+    witness_ = fail_first_;
+    blocker_ = last_;
+    const double optimum = cost.steered(goal);
+    std::array<Vec3, 3> starts{cost.middle, star.u_point, star.v_point};
+    std::optional<Place> found;
+    for (const Vec3& start : starts) {
+        const Place place{start, cost.steered(start)};
+        if (found && !(place.cost < found->cost)) continue;
+        if (fits(star, start)) found = place;
+    }
+    bool ok = found.has_value();
+    Place place = found ? *found : Place{goal, optimum};
+    if (ok) bisect(star, cost, goal, place);
+    if (tuning_.sqp_steps > 0 && (!ok || place.cost > optimum)) descend(star, cost, place, ok, ok);
+    if (!ok) return std::nullopt;
+    return place;
+}
+
+std::optional<Place> Placer::paper(const Star& star, const EdgeCost& cost) {
+    fail_first_ = 0;
+    witness_ = 0;
+    blocker_ = Blocker::region;
+    const auto factors = factorise(cost.steered);
+    if (!factors || !find_paper_region(star, cost.middle, half_spaces_)) return std::nullopt;
+    ++programs_;
+    const auto point = minimise(*factors, half_spaces_);
+    if (!point) return std::nullopt;
+    if (fits(star, *point)) return Place{*point, cost.steered(*point)};
+    witness_ = fail_first_;
+    blocker_ = last_;
+    return std::nullopt;
+}
+
+}  // namespace delmesh

@@ -1,0 +1,59 @@
+#pragma once
+// Where the merged vertex goes.
+
+#include "delmesh/simplify/quadric.hpp"
+#include "delmesh/simplify/quadric_program.hpp"
+#include "simplify/star.hpp"
+#include "simplify/tuning.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace delmesh {
+
+/// An edge's error as a function of where its ends merge to; local to the frame of its star (the origin is u).
+struct EdgeCost {
+    Quadric steered;   ///< the error, with what picks one of many equal places
+    double trace = 0;  ///< of the error alone
+    Vec3 middle;
+};
+
+struct Place {
+    Vec3 point;  ///< local
+    double cost = 0;
+};
+
+class Placer {
+public:
+    explicit Placer(const Tuning& tuning) : tuning_(tuning) {}
+
+    /// The best place found where all conditions hold in floating point, or why there is none.
+    std::optional<Place> best(const Star& star, const EdgeCost& cost);
+    /// The paper's: the lowest point over the intersection of half-spaces.
+    std::optional<Place> paper(const Star& star, const EdgeCost& cost);
+
+    /// Of the last call that found no place: the condition that the best place of all would have violated, and the
+    /// face of the star that belongs to it.
+    [[nodiscard]] Blocker blocker() const { return blocker_; }
+    [[nodiscard]] std::size_t witness() const { return witness_; }
+    /// Places tried and programs solved so far.
+    [[nodiscard]] std::size_t evaluations() const { return evaluations_; }
+    [[nodiscard]] std::size_t programs() const { return programs_; }
+
+private:
+    bool fits(const Star& star, const Vec3& w);
+    void bisect(const Star& star, const EdgeCost& cost, const Vec3& goal, Place& place);
+    void descend(const Star& star, const EdgeCost& cost, Place& place, bool feasible, bool& found);
+    void linearise(const Star& star, const Vec3& w);
+
+    const Tuning& tuning_;
+    Blocker blocker_ = Blocker::none;
+    Blocker last_ = Blocker::none;
+    std::size_t witness_ = 0;
+    std::size_t fail_first_ = 0;  ///< faces are tried from the one on that failed last
+    std::size_t evaluations_ = 0;
+    std::size_t programs_ = 0;
+    std::vector<HalfSpace> half_spaces_;
+};
+
+}  // namespace delmesh

@@ -1,0 +1,146 @@
+#include "delmesh/simplify/simplify.hpp"
+
+#include "delmesh/base/error.hpp"
+#include "delmesh/measure/certificate.hpp"
+#include "delmesh/measure/statistics.hpp"
+#include "delmesh/mesh/edits.hpp"
+#include "simplify/decimator.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace delmesh {
+namespace {
+
+void check_options(const SimplifyOptions& options) {
+    const auto refuse = [](const std::string& why) { throw Error(ErrorCode::bad_argument, why); };
+    if (!(options.ratio >= 0 && options.ratio <= 1))
+        refuse(fmt::format("the ratio must lie between 0 and 1, not be {}", options.ratio));
+    if (!(options.max_quadric_error_rel >= 0))
+        refuse(fmt::format("the largest quadric error must not be {}", options.max_quadric_error_rel));
+    if (!(options.feature_angle_deg >= 0 && options.feature_angle_deg <= 180))
+        refuse(
+            fmt::format("the crease angle must lie between 0 and 180 degrees, not be {}", options.feature_angle_deg));
+    const int ways = (options.vertices > 0) + (options.ratio > 0) + !options.levels.empty();
+    if (ways > 1) refuse("give one of a number of vertices, a ratio or a list of levels, not several");
+    if (ways == 0 && options.max_quadric_error_rel == 0)
+        refuse("say how far to simplify: a number of vertices, a ratio, levels or a largest quadric error");
+    if (std::find(options.levels.begin(), options.levels.end(), std::size_t{0}) != options.levels.end())
+        refuse("a level needs at least one vertex");
+}
+
+/// Fine to coarse, each once.
+std::vector<std::size_t> find_targets(const SimplifyOptions& options, std::size_t input_vertices) {
+    if (options.vertices > 0) return {options.vertices};
+    if (options.ratio > 0) {
+        const double wanted = std::round(options.ratio * static_cast<double>(input_vertices));
+        return {std::max<std::size_t>(1, static_cast<std::size_t>(wanted))};
+    }
+    if (options.levels.empty()) return {1};
+    std::vector<std::size_t> targets = options.levels;
+    std::sort(targets.begin(), targets.end(), std::greater<>());
+    targets.erase(std::unique(targets.begin(), targets.end()), targets.end());
+    return targets;
+}
+
+Tuning tuning_for(const SimplifyOptions& options) {
+    constexpr double radians = 3.14159265358979323846 / 180;
+    Tuning tuning;
+    // To float and back: the last bits of cos differ between systems.
+    tuning.crease_cosine = options.feature_angle_deg >= 180
+                               ? -1
+                               : static_cast<double>(static_cast<float>(std::cos(options.feature_angle_deg * radians)));
+    if (options.placement == Placement::paper) tuning = Tuning::of_the_paper(tuning.crease_cosine);
+    return tuning;
+}
+
+Obstacle obstacle(Blocker blocker) {
+    switch (blocker) {
+        case Blocker::fold:
+            return Obstacle::fold_over;
+        case Blocker::subtending:
+            return Obstacle::subtending;
+        case Blocker::incident:
+        case Blocker::region:
+        case Blocker::rounding:
+            return Obstacle::incident;
+        case Blocker::error:
+            return Obstacle::error;
+        default:
+            return Obstacle::topology;
+    }
+}
+
+LevelReport describe_level(const Decimator& decimator, std::size_t target, const Context* context) {
+    LevelReport level{.target = target, .vertices = decimator.vertices(), .blocked = {}};
+    level.quadric_error = decimator.worst_error();
+    const auto blocked = decimator.count_blocked();
+    for (std::size_t i = 1; i < blocked.size(); ++i)
+        level.blocked[static_cast<std::size_t>(obstacle(static_cast<Blocker>(i)))] += blocked[i];
+    if (level.vertices <= target) return level;
+    level.stop = is_cancelled(context)                                          ? SimplifyStop::cancelled
+                 : level.blocked[static_cast<std::size_t>(Obstacle::error)] > 0 ? SimplifyStop::error_limit
+                                                                                : SimplifyStop::blocked;
+    return level;
+}
+
+void drop_isolated(Mesh& mesh) {
+    for (std::size_t v = 0; v < mesh.vertex_count(); ++v)
+        if (mesh.is_live(VertexId(v)) && !mesh.halfedge(VertexId(v)).valid()) remove_isolated(mesh, VertexId(v));
+}
+
+}  // namespace
+
+std::span<const std::string_view> choices(Placement) {
+    static constexpr std::string_view names[] = {"best", "paper"};
+    return names;
+}
+
+std::string_view name(SimplifyStop stop) {
+    static constexpr std::string_view names[] = {"done", "blocked", "error_limit", "not_delaunay", "cancelled"};
+    return names[static_cast<std::size_t>(stop)];
+}
+
+std::string_view name(Obstacle obstacle) {
+    static constexpr std::string_view names[] = {"topology", "fold_over", "subtending", "incident", "error"};
+    return names[static_cast<std::size_t>(obstacle)];
+}
+
+SimplifyReport simplify(Mesh& mesh, const SimplifyOptions& options, const Context* context) {
+    check_options(options);
+    SimplifyReport report;
+    report.input_vertices = mesh.vertex_count();
+    const double diagonal = bounding_diagonal(mesh);
+    if (!certify(mesh, context).certified) {
+        report.remesh = make_delaunay(mesh, options.remesh, context);
+        if (report.remesh->stop != StopReason::done) {
+            report.stop = is_cancelled(context) ? SimplifyStop::cancelled : SimplifyStop::not_delaunay;
+            return report;
+        }
+    }
+    Decimator decimator(mesh, tuning_for(options),
+                        {options.max_quadric_error_rel * diagonal, options.remesh.precision});
+    const std::vector<std::size_t> targets = find_targets(options, report.input_vertices);
+    for (const std::size_t target : targets) {
+        decimator.run(target, context);
+        report.levels.push_back(describe_level(decimator, target, context));
+        report.stop = report.levels.back().stop;
+        const bool last = target == targets.back() || report.stop == SimplifyStop::cancelled;
+        if (last) break;
+        if (!options.on_level) continue;
+        Mesh copy = mesh;
+        drop_isolated(copy);
+        compact(copy);
+        options.on_level(copy, report.levels.back());
+    }
+    report.collapses = decimator.counts().collapses;
+    drop_isolated(mesh);
+    compact(mesh);
+    if (options.on_level) options.on_level(mesh, report.levels.back());
+    report_progress(context, "simplify", 1);
+    return report;
+}
+
+}  // namespace delmesh

@@ -1,0 +1,78 @@
+#include "simplify/weights.hpp"
+
+#include "simplify/frame.hpp"
+#include "simplify/walk.hpp"
+
+#include <cmath>
+
+namespace delmesh {
+namespace {
+
+/// Adds planes through the origin.
+class PlaneAdder {
+public:
+    PlaneAdder(const Tuning& tuning, Quadric& out) : tuning_(tuning), out_(out) {}
+
+    void add_face(const Vec3& normal) {
+        const double n2 = squared_norm(normal);
+        // Weight area^2 for power 2, area for power 1; the normal is twice the area long.
+        if (n2 > 0) out_.add_plane(normal, 0, tuning_.area_power == 2 ? 0.25 : 0.5 / std::sqrt(n2));
+    }
+    /// A plane through the edge, upright on a face.
+    void add_upright(const Vec3& along, const Vec3& face_normal, double weight) {
+        const Vec3 n = cross(along, face_normal);
+        const double n2 = squared_norm(n);
+        const double length2 = squared_norm(along);
+        if (n2 > 0) out_.add_plane(n, 0, weight * (tuning_.area_power == 2 ? length2 * length2 : length2) / n2);
+    }
+
+private:
+    const Tuning& tuning_;
+    Quadric& out_;
+};
+
+}  // namespace
+
+VertexWeights::VertexWeights(const Mesh& mesh, double scale, const Tuning& tuning)
+    : mesh_(mesh),
+      scale_(scale),
+      tuning_(tuning),
+      history_(mesh.vertex_count()),
+      current_(mesh.vertex_count()),
+      version_(mesh.vertex_count()) {
+    for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
+        history_[i] = planes_at(VertexId(i));
+        refresh(VertexId(i));
+    }
+}
+
+void VertexWeights::refresh(VertexId v) {
+    Quadric q = history_[v.index()];
+    q *= tuning_.history;
+    if (tuning_.current > 0) q += planes_at(v);
+    current_[v.index()] = q;
+    ++version_[v.index()];
+}
+
+Quadric VertexWeights::planes_at(VertexId v) const {
+    const Frame frame{scale_, 1 / scale_, mesh_.point(v)};
+    Quadric q;
+    PlaneAdder adder(tuning_, q);
+    each_outgoing(mesh_, v, [&](HalfedgeId h) {
+        const Vec3 a = frame.to_local(mesh_.point(mesh_.target(h)));
+        const Vec3 b = frame.to_local(mesh_.point(mesh_.apex(h)));
+        const Vec3 n = cross(a, b);
+        adder.add_face(n);
+        if (mesh_.is_boundary(Mesh::prev(h))) adder.add_upright(b, n, tuning_.boundary);
+        const HalfedgeId t = mesh_.twin(h);
+        if (!t.valid()) return adder.add_upright(a, n, tuning_.boundary);
+        if (tuning_.crease_cosine <= -1) return;
+        const Vec3 m = cross(frame.to_local(mesh_.point(mesh_.apex(t))), a);
+        if (dot(n, m) >= tuning_.crease_cosine * std::sqrt(squared_norm(n) * squared_norm(m))) return;
+        adder.add_upright(a, n, tuning_.boundary);
+        adder.add_upright(a, m, tuning_.boundary);
+    });
+    return q;
+}
+
+}  // namespace delmesh

@@ -1,0 +1,209 @@
+#include "delmesh/simplify/simplify.hpp"
+
+#include "delmesh/base/error.hpp"
+#include "delmesh/measure/certificate.hpp"
+#include "delmesh/measure/statistics.hpp"
+#include "delmesh/mesh/edits.hpp"
+#include "delmesh/mesh/shapes.hpp"
+#include "delmesh/mesh/validate.hpp"
+#include "simplify/decimator.hpp"
+#include "support/families.hpp"
+#include "support/surface_facts.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace delmesh {
+namespace {
+
+using test::SurfaceFacts;
+
+/// What every result of simplifying must have in common with its input, and be.
+void expect_sound(const Mesh& coarse, const SurfaceFacts& before, const std::string& what) {
+    EXPECT_EQ(validate(coarse), "") << what;
+    const SurfaceFacts after = test::examine(to_soup(coarse));
+    EXPECT_EQ(after.fault, "") << what;
+    EXPECT_EQ(after.euler, before.euler) << what;
+    EXPECT_EQ(after.components, before.components) << what;
+    EXPECT_EQ(after.boundary_loops, before.boundary_loops) << what;
+    EXPECT_EQ(after.used_vertices, coarse.vertex_count()) << what;
+    EXPECT_TRUE(certify(coarse).certified) << what;
+}
+
+SimplifyOptions to_vertices(std::size_t vertices) {
+    SimplifyOptions options;
+    options.vertices = vertices;
+    return options;
+}
+
+Mesh sample(std::string_view name, std::size_t faces) {
+    return Mesh(make_sample(name, faces));
+}
+
+TEST(Simplify, EveryFamilyKeepsItsTopologyAndIsDelaunayAtEveryLevel) {
+    for (const test::NamedSoup& named : test::families(300)) {
+        for (const Placement placement : {Placement::best, Placement::paper}) {
+            Mesh mesh(named.soup);
+            const SurfaceFacts before = test::examine(named.soup);
+            SimplifyOptions options;
+            options.placement = placement;
+            options.remesh.max_vertices = 20000;
+            const std::size_t n = mesh.vertex_count();
+            options.levels = {std::max<std::size_t>(n / 2, 1), std::max<std::size_t>(n / 10, 1), 1};
+            std::size_t calls = 0;
+            options.on_level = [&](const Mesh& coarse, const LevelReport& level) {
+                ++calls;
+                EXPECT_EQ(coarse.vertex_count(), level.vertices) << named.name;
+                expect_sound(coarse, before, named.name);
+            };
+            SimplifyReport report;
+            try {
+                report = simplify(mesh, options);
+            } catch (const Error& error) {
+                EXPECT_TRUE(named.has_zero_area || named.extreme_scale) << named.name << ": " << error.what();
+                continue;
+            }
+            if (report.stop == SimplifyStop::not_delaunay) continue;
+            EXPECT_EQ(calls, report.levels.size()) << named.name;
+            EXPECT_NE(report.stop, SimplifyStop::cancelled) << named.name;
+        }
+    }
+}
+
+/// The exact conditions are checked from scratch after every single collapse.
+TEST(Simplify, EverySingleCollapseLeavesADelaunayMesh) {
+    for (const char* name : {"icosphere", "noisy-sphere", "torus", "terrain", "plate"}) {
+        Mesh mesh = sample(name, 200);
+        make_delaunay(mesh, SimplifyOptions::default_remesh());
+        const SurfaceFacts before = test::examine(to_soup(mesh));
+        Decimator decimator(mesh, Tuning{});
+        for (std::size_t target = decimator.vertices(); target-- > 1;) {
+            decimator.run(target);
+            if (decimator.vertices() > target) break;
+            Mesh copy = mesh;
+            compact(copy);
+            expect_sound(copy, before, std::string(name) + " at " + std::to_string(target));
+            if (testing::Test::HasFailure()) return;
+        }
+        EXPECT_LT(decimator.vertices(), before.used_vertices / 2) << name;
+    }
+}
+
+TEST(Simplify, AClosedSphereGoesDownToATetrahedron) {
+    Mesh mesh = sample("icosphere", 1000);
+    const SimplifyReport report = simplify(mesh, to_vertices(1));
+    EXPECT_EQ(mesh.vertex_count(), 4u);
+    EXPECT_EQ(report.stop, SimplifyStop::blocked);
+    EXPECT_GT(report.levels.back().blocked[static_cast<std::size_t>(Obstacle::topology)], 0u);
+    EXPECT_EQ(report.levels.back().vertices, 4u);
+}
+
+TEST(Simplify, TheSameInputGivesTheSameBits) {
+    const auto run = [] {
+        Mesh mesh = sample("torus", 2000);
+        (void)simplify(mesh, to_vertices(100));
+        return test::hash_bits(to_soup(mesh));
+    };
+    EXPECT_EQ(run(), run());
+}
+
+/// Scaling by a power of two changes no decision.
+TEST(Simplify, ResultsScaleWithTheMesh) {
+    const auto run = [](int exponent) {
+        PolygonSoup soup = make_sample("torus", 1000);
+        for (Vec3& p : soup.points)
+            p = {std::ldexp(p.x, exponent), std::ldexp(p.y, exponent), std::ldexp(p.z, exponent)};
+        Mesh mesh(std::move(soup));
+        (void)simplify(mesh, to_vertices(60));
+        PolygonSoup out = to_soup(mesh);
+        for (Vec3& p : out.points)
+            p = {std::ldexp(p.x, -exponent), std::ldexp(p.y, -exponent), std::ldexp(p.z, -exponent)};
+        return test::hash_bits(out);
+    };
+    EXPECT_EQ(run(0), run(40));
+    EXPECT_EQ(run(0), run(-300));
+}
+
+TEST(Simplify, SeveralLevelsAreTheSameAsEachAlone) {
+    Mesh one = sample("torus", 1500);
+    Mesh two = one;
+    SimplifyOptions options;
+    options.refit = false;
+    options.levels = {100, 300, 100};
+    std::vector<std::size_t> seen;
+    options.on_level = [&](const Mesh& mesh, const LevelReport&) { seen.push_back(mesh.vertex_count()); };
+    (void)simplify(one, options);
+    EXPECT_EQ(seen, (std::vector<std::size_t>{300, 100}));
+    SimplifyOptions alone = to_vertices(100);
+    alone.refit = false;
+    (void)simplify(two, alone);
+    EXPECT_EQ(test::hash_bits(to_soup(one)), test::hash_bits(to_soup(two)));
+}
+
+TEST(Simplify, AFlatGridKeepsItsOutline) {
+    Mesh mesh = sample("grid", 800);
+    const double diagonal = bounding_diagonal(mesh);
+    (void)simplify(mesh, to_vertices(12));
+    EXPECT_LE(mesh.vertex_count(), 12u);
+    EXPECT_NEAR(bounding_diagonal(mesh), diagonal, 1e-6 * diagonal);
+}
+
+TEST(Simplify, AnErrorLimitStopsInTime) {
+    Mesh mesh = sample("icosphere", 4000);
+    const double diagonal = bounding_diagonal(mesh);
+    SimplifyOptions options;
+    options.max_quadric_error_rel = 1e-3;
+    const SimplifyReport report = simplify(mesh, options);
+    EXPECT_EQ(report.stop, SimplifyStop::error_limit);
+    EXPECT_LE(report.levels.back().quadric_error, 1e-3 * diagonal);
+    EXPECT_GT(report.levels.back().quadric_error, 2e-4 * diagonal);
+    EXPECT_LT(mesh.vertex_count(), 1000u);
+    EXPECT_GT(mesh.vertex_count(), 10u);
+}
+
+TEST(Simplify, FloatsStayFloats) {
+    PolygonSoup soup = make_sample("torus", 1000);
+    for (Vec3& p : soup.points) p = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+    Mesh mesh(std::move(soup));
+    SimplifyOptions options = to_vertices(50);
+    options.remesh.precision = Precision::float32;
+    (void)simplify(mesh, options);
+    EXPECT_EQ(mesh.vertex_count(), 50u);
+    for (const Vec3& p : mesh.points()) EXPECT_EQ(static_cast<double>(static_cast<float>(p.x)), p.x);
+    EXPECT_TRUE(certify(mesh).certified);
+}
+
+TEST(Simplify, RefusesWhatMakesNoSense) {
+    const auto code = [](const SimplifyOptions& options) {
+        Mesh mesh = sample("icosphere", 100);
+        try {
+            (void)simplify(mesh, options);
+        } catch (const Error& error) {
+            return error.code();
+        }
+        return ErrorCode::too_large;
+    };
+    SimplifyOptions both = to_vertices(10);
+    both.ratio = 0.5;
+    SimplifyOptions above;
+    above.ratio = 1.5;
+    SimplifyOptions zero;
+    zero.levels = {10, 0};
+    EXPECT_EQ(code({}), ErrorCode::bad_argument);
+    EXPECT_EQ(code(both), ErrorCode::bad_argument);
+    EXPECT_EQ(code(above), ErrorCode::bad_argument);
+    EXPECT_EQ(code(zero), ErrorCode::bad_argument);
+}
+
+TEST(Simplify, CancellingLeavesAValidMesh) {
+    Mesh mesh = sample("icosphere", 20000);
+    Context context;
+    context.cancel();
+    SimplifyReport report = simplify(mesh, to_vertices(10), &context);
+    EXPECT_EQ(report.stop, SimplifyStop::cancelled);
+    EXPECT_EQ(validate(mesh), "");
+}
+
+}  // namespace
+}  // namespace delmesh
