@@ -33,12 +33,6 @@ void check_lengths(const Mesh& mesh) {
                 ends, count);
 }
 
-bool is_cap(const Mesh& mesh, FaceId f) {
-    const HalfedgeId h = Mesh::halfedge(f);
-    return exact::are_collinear_inline(mesh.point(mesh.origin(h)), mesh.point(mesh.target(h)),
-                                       mesh.point(mesh.apex(h)));
-}
-
 /// The side of a zero-area face that holds its third corner.
 HalfedgeId long_side(const Mesh& mesh, FaceId f) {
     HalfedgeId h = Mesh::halfedge(f);
@@ -61,8 +55,8 @@ HalfedgeId long_side(const Mesh& mesh, FaceId f) {
 }
 
 /// Takes one cap away; the faces that may be caps now go onto the list.
-void remove_cap(Mesh& mesh, FaceId f, std::vector<FaceId>& caps) {
-    const HalfedgeId h = long_side(mesh, f);
+void remove_cap(Mesh& mesh, HalfedgeId h, std::vector<FaceId>& caps) {
+    const FaceId f = Mesh::face(h);
     if (mesh.is_boundary(h)) {
         if (!can_remove_face(mesh, f)) fail_at_cap(mesh, f);
         remove_face(mesh, f);
@@ -79,6 +73,25 @@ void remove_cap(Mesh& mesh, FaceId f, std::vector<FaceId>& caps) {
 
 }  // namespace
 
+bool is_cap(const Mesh& mesh, FaceId f) {
+    const HalfedgeId h = Mesh::halfedge(f);
+    const Vec3& a = mesh.point(mesh.origin(h));
+    const Vec3& b = mesh.point(mesh.target(h));
+    const Vec3& c = mesh.point(mesh.apex(h));
+    return exact::are_collinear_inline(a, b, c) && a != b && b != c && c != a;
+}
+
+HalfedgeId side_to_flip(const Mesh& mesh, FaceId f) {
+    HalfedgeId h = long_side(mesh, f);
+    for (;;) {
+        const HalfedgeId t = mesh.twin(h);
+        if (!t.valid() || !is_cap(mesh, Mesh::face(t))) return h;
+        const HalfedgeId longer = long_side(mesh, Mesh::face(t));
+        if (longer == t) return h;
+        h = longer;
+    }
+}
+
 std::size_t remove_caps(Mesh& mesh, const Context* context) {
     check_lengths(mesh);
     std::vector<std::uint8_t> flat(mesh.face_count(), 0);
@@ -94,8 +107,10 @@ std::size_t remove_caps(Mesh& mesh, const Context* context) {
         const FaceId f = caps.back();
         caps.pop_back();
         if (!mesh.is_live(f) || !is_cap(mesh, f)) continue;
-        remove_cap(mesh, f, caps);
-        removed = removed || !mesh.is_live(f);
+        const HalfedgeId h = side_to_flip(mesh, f);
+        remove_cap(mesh, h, caps);
+        removed = removed || !mesh.is_live(Mesh::face(h));
+        if (Mesh::face(h) != f) caps.push_back(f);
         ++changes;
     }
     if (removed) compact(mesh);

@@ -14,6 +14,13 @@ namespace delmesh {
 /// one. Throws `Error` (zero_length_edge, degenerate_geometry).
 std::size_t remove_caps(Mesh& mesh, const Context* context);
 
+/// True if the face has no area, exactly, though its corners are apart.
+[[nodiscard]] bool is_cap(const Mesh& mesh, FaceId f);
+
+/// The half-edge to flip so that the zero-area face f, or one that has to go before it, is gone: it is the longest side
+/// of its face and of every zero-area face beside it, so that the new edge is shorter.
+[[nodiscard]] HalfedgeId side_to_flip(const Mesh& mesh, FaceId f);
+
 /// A mark for each half-edge: planar where the two faces are coplanar and not folded over, exactly. Parallel.
 [[nodiscard]] std::vector<Mark> mark_edges(const Mesh& mesh, const Context* context);
 

@@ -72,7 +72,7 @@ private:
     void treat(HalfedgeId h) {
         if (!marked_.is_planar(h)) {
             splitter_.split_at_shell(h);
-        } else if (!can_flip(mesh_, h)) {
+        } else if (!is_flippable(mesh_, h)) {
             stuck_.push_back(h);
         } else if (const int folds = count_folds(h); folds > 0 && options_.no_foldover) {
             stuck_.push_back(h);
@@ -111,7 +111,7 @@ private:
             stuck_.erase(std::unique(stuck_.begin(), stuck_.end()), stuck_.end());
             for (const HalfedgeId h : stuck_) {
                 if (!is_non_delaunay(mesh_, h)) continue;
-                if (is_flippable(h)) {
+                if (may_flip(h)) {
                     push(h);
                 } else {
                     left.push_back(h);
@@ -127,8 +127,8 @@ private:
         return found;
     }
 
-    [[nodiscard]] bool is_flippable(HalfedgeId h) const {
-        return marked_.is_planar(h) && can_flip(mesh_, h) && !(options_.no_foldover && count_folds(h) > 0);
+    [[nodiscard]] bool may_flip(HalfedgeId h) const {
+        return marked_.is_planar(h) && is_flippable(mesh_, h) && !(options_.no_foldover && count_folds(h) > 0);
     }
 
     /// Boundary edges that are not split as they come up.
@@ -140,7 +140,7 @@ private:
 
     void split_stuck(HalfedgeId h) {
         if (splitter_.stopped() || !is_non_delaunay(mesh_, h)) return;
-        if (is_flippable(h)) {
+        if (may_flip(h)) {
             push(h);
             return;
         }
@@ -152,7 +152,7 @@ private:
     void count_exposed(const std::vector<HalfedgeId>& stuck) {
         for (const HalfedgeId h : stuck) {
             const HalfedgeId t = mesh_.twin(h);
-            if (!t.valid() || can_flip(mesh_, h)) continue;
+            if (!t.valid() || is_flippable(mesh_, h)) continue;
             const VertexId u = mesh_.apex(h);
             const VertexId v = mesh_.apex(t);
             const std::size_t more =

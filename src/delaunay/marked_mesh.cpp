@@ -34,6 +34,65 @@ VertexId MarkedMesh::split(HalfedgeId h, const SplitPoint& where, const Vec3& po
     return s;
 }
 
+HalfedgeId MarkedMesh::flip_cap(HalfedgeId h) {
+    const HalfedgeId t = mesh_.twin(h);
+    const bool crease = !is_planar(h);
+    if (!facets_.empty()) facets_[Mesh::face(h).index()] = facets_[Mesh::face(t).index()];
+    const HalfedgeId made = flip_planar(h);
+    if (crease)
+        for (const HalfedgeId side : {t, Mesh::next(h)}) mark_physical(side);
+    return made;
+}
+
+void MarkedMesh::mark_physical(HalfedgeId h) {
+    marks_[h.index()] = Mark::physical;
+    if (mesh_.twin(h).valid()) marks_[mesh_.twin(h).index()] = Mark::physical;
+}
+
+void MarkedMesh::merge(HalfedgeId h) {
+    // In each face that dies, two sides become one edge: a crease if either was.
+    for (const HalfedgeId side : {h, mesh_.twin(h)}) {
+        if (!side.valid()) continue;
+        const HalfedgeId left = mesh_.twin(Mesh::next(side));
+        const HalfedgeId right = mesh_.twin(Mesh::prev(side));
+        const bool crease = !is_planar(Mesh::next(side)) || !is_planar(Mesh::prev(side));
+        for (const HalfedgeId outer : {left, right})
+            if (outer.valid() && crease) marks_[outer.index()] = Mark::physical;
+    }
+    merged_.push_back({mesh_.target(h), mesh_.origin(h)});
+    collapse(mesh_, h, mesh_.point(mesh_.origin(h)));
+}
+
+void MarkedMesh::drop(FaceId f) {
+    for (HalfedgeId h : {Mesh::halfedge(f), Mesh::next(Mesh::halfedge(f)), Mesh::prev(Mesh::halfedge(f))})
+        mark_physical(h);
+    remove_face(mesh_, f);
+}
+
+void MarkedMesh::compact_all() {
+    CompactMap map = compact(mesh_);
+    std::size_t faces = 0;
+    for (std::size_t f = 0; f < map.face.size(); ++f) {
+        if (!map.face[f].valid()) continue;
+        for (std::size_t k = 0; k < 3; ++k) marks_[3 * faces + k] = marks_[3 * f + k];
+        if (!facets_.empty()) facets_[faces] = facets_[f];
+        ++faces;
+    }
+    marks_.resize(3 * faces);
+    if (!facets_.empty()) facets_.resize(faces);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < splits_.size(); ++i)
+        if (map.vertex[input_vertices_ + i].valid()) splits_[kept++] = splits_[i];
+    splits_.resize(kept);
+    for (auto last = merged_.rbegin(); last != merged_.rend(); ++last)
+        map.vertex[(*last)[0].index()] = map.vertex[(*last)[1].index()];
+    merged_.clear();
+    for (SplitPoint& split : splits_) {
+        split.a = map.vertex[split.a.index()];
+        split.b = map.vertex[split.b.index()];
+    }
+}
+
 void MarkedMesh::copy_facet(HalfedgeId h) {
     if (!facets_.empty()) facets_.push_back(facets_[Mesh::face(h).index()]);
 }

@@ -7,6 +7,7 @@
 #include "delmesh/mesh/edits.hpp"
 #include "delmesh/mesh/mesh.hpp"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -25,6 +26,7 @@ public:
     [[nodiscard]] const Mesh& mesh() const { return mesh_; }
     [[nodiscard]] bool is_planar(HalfedgeId h) const { return marks_[h.index()] == Mark::planar; }
     [[nodiscard]] std::size_t input_vertices() const { return input_vertices_; }
+    [[nodiscard]] std::size_t split_count() const { return splits_.size(); }
     [[nodiscard]] bool is_input(VertexId v) const { return v.index() < input_vertices_; }
     /// Where split vertex v lies. Requires !is_input(v).
     [[nodiscard]] const SplitPoint& split_point(VertexId v) const { return splits_[v.index() - input_vertices_]; }
@@ -34,18 +36,31 @@ public:
     /// Splits an edge at `where`, which is `point` in space; moves half-edges as `split_edge` does.
     VertexId split(HalfedgeId h, const SplitPoint& where, const Vec3& point);
 
+    /// Flips the edge of a zero-area face that is its longest side: that face goes, the other one is cut in two. The
+    /// two short sides become creases where the long one was.
+    HalfedgeId flip_cap(HalfedgeId h);
+    /// Merges target(h) into origin(h), which lies at the same place. Requires can_collapse.
+    void merge(HalfedgeId h);
+    /// Takes a zero-area face off the boundary. Requires can_remove_face.
+    void drop(FaceId f);
+    /// Removes what `merge` and `drop` have left dead. Ids change; split vertices keep their order.
+    void compact_all();
+
     void reserve_splits(std::size_t count);
     /// Hands over the facets and splits. The object is of no more use.
     [[nodiscard]] Provenance take_provenance();
 
 private:
     void copy_facet(HalfedgeId h);
+    void mark_physical(HalfedgeId h);
 
     Mesh& mesh_;
     std::vector<Mark> marks_;
     std::vector<FaceId> facets_;
     std::vector<SplitPoint> splits_;
     std::size_t input_vertices_;
+    /// Who went, and into whom, since the last `compact_all`.
+    std::vector<std::array<VertexId, 2>> merged_;
 };
 
 }  // namespace delmesh

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "delmesh/base/context.hpp"
+#include "delmesh/mesh/edits.hpp"
 #include "delmesh/mesh/mesh.hpp"
 #include "exact/inline.hpp"
 
@@ -17,6 +18,11 @@ namespace delmesh {
     const Sign sign = t.valid() ? exact::delaunay_sign_inline(p, q, u, mesh.point(mesh.apex(t)))
                                 : exact::right_angle_sign_inline(p, q, u);
     return sign == Sign::negative;
+}
+
+/// True if the edge may be flipped (see can_flip) and the new edge has a length.
+[[nodiscard]] inline bool is_flippable(const Mesh& mesh, HalfedgeId h) {
+    return can_flip(mesh, h) && mesh.point(mesh.apex(h)) != mesh.point(mesh.apex(mesh.twin(h)));
 }
 
 /// All edges that are not Delaunay, in the order of their ids. Parallel.

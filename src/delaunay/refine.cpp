@@ -38,7 +38,7 @@ private:
             const HalfedgeId h = suspects_.back();
             suspects_.pop_back();
             if (!is_non_delaunay(mesh_, h)) continue;
-            if (marked_.is_planar(h) && can_flip(mesh_, h)) {
+            if (marked_.is_planar(h) && is_flippable(mesh_, h)) {
                 flip_edge(h);
             } else {
                 splits_.push_back(h);
@@ -71,7 +71,7 @@ private:
         if (splitter_.stopped() || !is_non_delaunay(mesh_, h)) return;
         if (!marked_.is_planar(h)) {
             splitter_.split_at_shell(h);
-        } else if (can_flip(mesh_, h)) {
+        } else if (is_flippable(mesh_, h)) {
             flip_edge(h);
         } else {
             splitter_.halve(h);

@@ -1,6 +1,7 @@
 #include "delmesh/delaunay/remesh.hpp"
 
 #include "delaunay/classify.hpp"
+#include "delaunay/clean.hpp"
 #include "delaunay/features.hpp"
 #include "delaunay/flip.hpp"
 #include "delaunay/marked_mesh.hpp"
@@ -75,13 +76,34 @@ std::span<const std::string_view> choices(FlipFinish) {
 
 namespace {
 
+/// Rounds of removing what rounding has flattened and refining again.
+constexpr int most_cleanings = 50;
+
+/// Algorithm 1; where rounding has made edges without length or faces without area, these are taken away.
+void refine_and_clean(MarkedMesh& marked, const RemeshOptions& options, const Context* context, RemeshReport& report) {
+    refine(marked, options, context, report);
+    const std::size_t lower_bound = report.lower_bound;
+    for (int round = 0; report.stop == StopReason::done; ++round) {
+        const Cleaning cleaning = clean_up(marked, context);
+        if (cleaning.changes == 0 && !cleaning.left) break;
+        if (cleaning.changes == 0 || round == most_cleanings) {
+            report.stop = StopReason::unresolved;
+            report.witness = cleaning.left;
+            break;
+        }
+        refine(marked, options, context, report);
+    }
+    report.lower_bound = lower_bound;
+    report.splits = marked.split_count();
+}
+
 /// Algorithm 1 on a mesh without zero-area faces.
 void preserve_surface(Mesh& mesh, const RemeshOptions& options, const Context* context, RemeshReport& report) {
     std::vector<Mark> marks = mark_edges(mesh, context);
     std::vector<FaceId> facets = find_facets(mesh, marks);
     std::vector<FaceId> input_facets = facets;
     MarkedMesh marked(mesh, std::move(marks), std::move(facets));
-    refine(marked, options, context, report);
+    refine_and_clean(marked, options, context, report);
     report.provenance = marked.take_provenance();
     report.provenance.facet_of_input_face = std::move(input_facets);
 }
@@ -95,12 +117,17 @@ void flip_surface(Mesh& mesh, const RemeshOptions& options, const Context* conte
                       features ? options.feature_edges : std::vector<std::array<VertexId, 2>>{}, context),
         {});
     flip_edges(flipping, features, options, context, report);
+    for (int round = 0; round < most_cleanings && report.stop == StopReason::done; ++round) {
+        if (clean_up(flipping, context).changes == 0) break;
+        flip_edges(flipping, features, options, context, report);
+    }
+    report.splits = flipping.split_count();
     report.provenance = flipping.take_provenance();
     if (report.stop != StopReason::done || find_non_delaunay(mesh, context).empty()) return;
 
     RemeshReport rest;
     MarkedMesh refining(mesh, mark_edges(mesh, context), {});
-    refine(refining, options, context, rest);
+    refine_and_clean(refining, options, context, rest);
     report.stop = rest.stop;
     report.witness = rest.witness;
     report.flips += rest.flips;

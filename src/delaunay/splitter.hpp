@@ -27,6 +27,7 @@ public:
     [[nodiscard]] bool stopped() const { return stopped_; }
 
 private:
+    [[nodiscard]] bool lies_inside(HalfedgeId h, const Vec3& s) const;
     void split(HalfedgeId h, const SplitPoint& where, const Vec3& point);
     void part_doubled_faces(HalfedgeId h);
 

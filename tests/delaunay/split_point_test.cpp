@@ -40,9 +40,9 @@ TEST(ShellParameter, FollowsTheUnit) {
 }
 
 TEST(ShellParameter, IsMeasuredFromAnEndOfTheEdgeWhereThePartReachesOne) {
-    // From b: 8 - 6 = 2 and 8 - 4 = 4 are candidates on [5, 8] about the middle 6.5; 2 is nearer to 1.5.
-    EXPECT_DOUBLE_EQ(shell_parameter({VertexId(0), VertexId(1), 5.0 / 8, 1}, 8, 1), 6.0 / 8);
-    EXPECT_DOUBLE_EQ(shell_parameter({VertexId(0), VertexId(1), 1, 5.0 / 8}, 8, 1), 6.0 / 8);
+    // On [5, 8] from b: the shells at 1 and 2 are equally near to 1.5, and the shorter one wins.
+    EXPECT_DOUBLE_EQ(shell_parameter({VertexId(0), VertexId(1), 5.0 / 8, 1}, 8, 1), 7.0 / 8);
+    EXPECT_DOUBLE_EQ(shell_parameter({VertexId(0), VertexId(1), 1, 5.0 / 8}, 8, 1), 7.0 / 8);
     // From a part's own end in the middle of the edge.
     EXPECT_DOUBLE_EQ(shell_parameter({VertexId(0), VertexId(1), 5.0 / 8, 7.0 / 8}, 8, 1), 6.0 / 8);
 }
