@@ -228,12 +228,10 @@ PolygonSoup make_many_parts(std::size_t faces, const Noise& noise) {
     const std::array<PolygonSoup, 5> parts{make_noisy_sphere(180, noise), make_torus(200, noise),
                                            make_sheared_box(108, noise), make_terrain(128, noise),
                                            make_flat_tets(4, noise)};
-    std::size_t round = 0;
-    for (const PolygonSoup& part : parts) round += part.face_count();
-    const std::size_t half_part = round / parts.size() / 2;
-    const Places place(parts.size() * (faces / round + 1), 4);
+    constexpr std::size_t mean_size = 120;
+    const Places place(faces / mean_size + 1, 4);
     PolygonSoup soup;
-    for (std::size_t i = 0; i == 0 || soup.face_count() + half_part < faces; ++i) {
+    for (std::size_t i = 0; i == 0 || soup.face_count() + mean_size / 2 < faces; ++i) {
         const bool box = i % parts.size() == 2;
         // Large and small parts lie 2^10 apart; powers of two keep every shape exactly.
         const double scale = std::ldexp(1.0, -static_cast<int>(noise.bits(i) % 11) - (box ? 5 : 0));

@@ -1,6 +1,7 @@
 #include "delmesh/mesh/shapes.hpp"
 
 #include "delmesh/base/error.hpp"
+#include "delmesh/exact/predicates.hpp"
 #include "mesh/shape_tools.hpp"
 #include "support/families.hpp"
 #include "support/surface_facts.hpp"
@@ -121,6 +122,19 @@ TEST(Shapes, GridsAreEmbeddedInTheirPlane) {
             const auto c = soup.face(f);
             const Vec3 normal = cross(soup.points[c[1]] - soup.points[c[0]], soup.points[c[2]] - soup.points[c[0]]);
             ASSERT_GT(normal.z, 0) << name << " face " << f;
+        }
+    }
+}
+
+TEST(Shapes, HaveNoFaceOfZeroArea) {
+    for (const SampleInfo& sample : samples()) {
+        for (const std::size_t faces : {100, 3000}) {
+            const PolygonSoup soup = make_sample(sample.name, faces);
+            for (std::size_t f = 0; f < soup.face_count(); ++f) {
+                const auto c = soup.face(f);
+                ASSERT_FALSE(are_collinear(soup.points[c[0]], soup.points[c[1]], soup.points[c[2]]))
+                    << sample.name << " " << faces << " face " << f;
+            }
         }
     }
 }
