@@ -1,5 +1,8 @@
 #include "io/point_index.hpp"
 
+#include "base/prefetch.hpp"
+
+#include <algorithm>
 #include <bit>
 #include <random>
 
@@ -7,7 +10,7 @@ namespace delmesh::io {
 
 namespace {
 
-constexpr int first_bits = 10;
+constexpr std::size_t least_slots = 1024;
 
 /// The bits of a coordinate, those of +0 for -0.
 std::uint64_t bits_of(double coordinate) {
@@ -31,20 +34,34 @@ bool same(const Vec3& a, const Vec3& b) {
 
 }  // namespace
 
-PointIndex::PointIndex(std::vector<Vec3>& points)
+PointIndex::PointIndex(std::vector<Vec3>& points, std::size_t expected)
     : points_(points),
-      slots_(std::size_t{1} << first_bits, empty),
-      shift_(64 - first_bits),
-      seed_(fresh_seed()) {}
-
-std::size_t PointIndex::slot_of(const Vec3& point) const {
-    const std::uint64_t hash = mix(mix(mix(seed_, bits_of(point.x)), bits_of(point.y)), bits_of(point.z));
-    return static_cast<std::size_t>(hash >> shift_);
+      slots_(std::bit_ceil(std::max(2 * expected, least_slots)), empty),
+      shift_(64 - std::countr_zero(slots_.size())),
+      seed_(fresh_seed()) {
+    points_.reserve(expected);
 }
 
-std::uint32_t PointIndex::add(const Vec3& point) {
+std::uint64_t PointIndex::hash_of(const Vec3& point) const {
+    return mix(mix(mix(seed_, bits_of(point.x)), bits_of(point.y)), bits_of(point.z));
+}
+
+void PointIndex::add(std::span<const Vec3> points, std::vector<std::uint32_t>& numbers) {
+    hashes_.clear();
+    for (const Vec3& point : points) {
+        hashes_.push_back(hash_of(point));
+        prefetch(&slots_[hashes_.back() >> shift_]);
+    }
+    for (const std::uint64_t hash : hashes_) {
+        const std::uint32_t number = slots_[hash >> shift_];
+        if (number != empty) prefetch(&points_[number]);
+    }
+    for (std::size_t i = 0; i < points.size(); ++i) numbers.push_back(add(points[i], hashes_[i]));
+}
+
+std::uint32_t PointIndex::add(const Vec3& point, std::uint64_t hash) {
     const std::size_t mask = slots_.size() - 1;
-    std::size_t slot = slot_of(point);
+    std::size_t slot = hash >> shift_;
     for (; slots_[slot] != empty; slot = (slot + 1) & mask) {
         if (same(points_[slots_[slot]], point)) return slots_[slot];
     }
@@ -60,7 +77,7 @@ void PointIndex::grow() {
     --shift_;
     const std::size_t mask = slots_.size() - 1;
     for (std::size_t i = 0; i < points_.size(); ++i) {
-        std::size_t slot = slot_of(points_[i]);
+        std::size_t slot = hash_of(points_[i]) >> shift_;
         while (slots_[slot] != empty) slot = (slot + 1) & mask;
         slots_[slot] = static_cast<std::uint32_t>(i);
     }

@@ -38,29 +38,32 @@ std::uint64_t read_facet_count(Input& input) {
 /// 50 bytes a facet: normal, three points, two bytes that some writers use for colours.
 PolygonSoup read_binary(Input& input) {
     const std::uint64_t count = read_facet_count(input);
-    SoupBuilder builder;
-    builder.soup.stored = Precision::float32;
-    builder.soup.corners.reserve(3 * input.plausible(count, facet_bytes));
-    builder.soup.points.reserve(input.plausible(count, facet_bytes) / 2 + 2);
-    PointIndex index(builder.soup.points);
+    PolygonSoup soup;
+    soup.stored = Precision::float32;
+    soup.corners.reserve(3 * input.plausible(count, facet_bytes));
+    PointIndex index(soup.points, input.plausible(count, facet_bytes) / 2 + 2);  // as in a closed surface
+    std::vector<Vec3> corners;
     for (std::uint64_t done = 0; done < count;) {
-        const std::uint64_t here = std::min<std::uint64_t>(input.ensure(facet_bytes) / facet_bytes, count - done);
+        constexpr std::uint64_t batch = 16;
+        const std::uint64_t available = input.ensure(facet_bytes) / facet_bytes;
+        const std::uint64_t here = std::min({available, count - done, batch});
         if (here == 0) {
             input.fail_at(input.offset() + input.available(),
                           fmt::format("expected facet {} of {}, found the end of the file", done, count));
         }
-        if (builder.soup.points.size() + 3 * here >= most_points) {
+        if (soup.points.size() + 3 * here >= most_points) {
             input.fail_at(input.offset(), fmt::format("expected fewer than {} points, found more", most_points),
                           ErrorCode::too_large);
         }
-        for (std::uint64_t i = 0; i < here; ++i) {
-            for (const std::size_t at : {12, 24, 36}) builder.add_corner(index.add(load_point(input.begin() + at)));
-            builder.end_face();
-            input.skip(facet_bytes);
+        corners.clear();
+        for (const char* facet = input.begin(); corners.size() < 3 * here; facet += facet_bytes) {
+            for (const std::size_t at : {12, 24, 36}) corners.push_back(load_point(facet + at));
         }
+        index.add(corners, soup.corners);
+        input.skip(here * facet_bytes);
         done += here;
     }
-    return std::move(builder.soup);
+    return soup;
 }
 
 bool is_word(std::string_view word, std::string_view keyword) {
