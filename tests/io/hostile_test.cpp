@@ -63,7 +63,7 @@ std::vector<File> small_files() {
 /// may be out of proportion to them.
 void expect_no_harm(const std::string& bytes, const std::string& name) {
     constexpr std::size_t fixed = std::size_t{1} << 20;
-    constexpr std::size_t bytes_per_byte = 16;
+    constexpr std::size_t bytes_per_byte = 32;
     test::largest_allocation = 0;
     try {
         PolygonSoup soup = test::parse(bytes, name);
@@ -201,12 +201,22 @@ TEST(Hostile, LongLines) {
     expect_no_harm(std::string(longest, '\\'), "a.obj");
 }
 
-TEST(Hostile, BinaryOfManyColoursAndEmptyFaces) {
-    std::string bytes =
-        "ply\nformat binary_little_endian 1.0\nelement vertex 0\nproperty float x\nproperty float y\n"
-        "property float z\nelement face 1000000\nproperty list uchar int vertex_indices\nend_header\n" +
-        std::string(1'000'000, '\0');
-    EXPECT_EQ(test::parse(bytes, "a.ply").face_count(), 1'000'000u);
+/// What takes the most memory for each byte: faces without corners, and strips of one-byte indices.
+TEST(Hostile, DenseFiles) {
+    constexpr std::size_t many = 1'000'000;
+    const std::string start =
+        "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty char x\nproperty char y\n"
+        "property char z\n";
+    const std::string points("\0\0\0\1\0\0\0\1\0", 9);
+    const std::string faces = start + "element face 1000000\nproperty list uchar int vertex_indices\nend_header\n" +
+                              points + std::string(many, '\0');
+    EXPECT_EQ(test::parse(faces, "a.ply").face_count(), many);
+    expect_no_harm(faces, "a.ply");
+    std::string strip = start + "element tristrips 1\nproperty list int uchar vertex_indices\nend_header\n" + points +
+                        std::string("\x40\x42\x0f\0", 4);
+    for (std::size_t i = 0; i < many; ++i) strip += static_cast<char>(i % 3);
+    EXPECT_EQ(test::parse(strip, "a.ply").face_count(), many - 2);
+    expect_no_harm(strip, "a.ply");
 }
 
 }  // namespace
