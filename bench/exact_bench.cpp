@@ -3,6 +3,7 @@
 #include "delmesh/exact/predicates.hpp"
 
 #include "exact/families.hpp"
+#include "exact/inline.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -62,6 +63,13 @@ const auto collinear = [](const Quad& q, Tier* tier) { return are_collinear(q.p,
 const auto planar = [](const Quad& q, Tier* tier) { return is_planar_edge(q.p, q.q, q.u, q.v, tier); };
 const auto fold = [](const Quad& q, Tier* tier) { return dihedral_sign(q.p, q.q, q.u, q.v, 0.98, tier); };
 
+const auto delaunay_inline = [](const Quad& q, Tier* tier) {
+    return exact::delaunay_sign_inline(q.p, q.q, q.u, q.v, tier);
+};
+const auto planar_inline = [](const Quad& q, Tier* tier) {
+    return exact::is_planar_edge_inline(q.p, q.q, q.u, q.v, tier);
+};
+
 #define DELMESH_EXACT_BENCH(predicate, family) BENCHMARK_CAPTURE(run, predicate##_##family, make(family), predicate)
 
 #define DELMESH_EXACT_BENCH_ALL(predicate)          \
@@ -80,10 +88,12 @@ const auto fold = [](const Quad& q, Tier* tier) { return dihedral_sign(q.p, q.q,
     DELMESH_EXACT_BENCH(predicate, any_bits)
 
 DELMESH_EXACT_BENCH_ALL(delaunay);
+DELMESH_EXACT_BENCH_ALL(delaunay_inline);
 DELMESH_EXACT_BENCH_ALL(right_angle);
 DELMESH_EXACT_BENCH_ALL(coplanar);
 DELMESH_EXACT_BENCH_ALL(collinear);
 DELMESH_EXACT_BENCH_ALL(planar);
+DELMESH_EXACT_BENCH_ALL(planar_inline);
 DELMESH_EXACT_BENCH_ALL(fold);
 
 }  // namespace

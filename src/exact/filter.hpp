@@ -23,12 +23,21 @@ inline constexpr double underflow_allowance = 0x1p-1000;
 inline constexpr double smallest_square = 0x1p-200;
 inline constexpr double largest_square = 0x1p200;
 
-/// The sign of `value` if it is farther from zero than `bound`; a NaN decides nothing.
-inline std::optional<Sign> sign_beyond(double value, double bound) {
-    if (value > bound) return Sign::positive;
-    if (value < -bound) return Sign::negative;
-    return std::nullopt;
-}
+/// A value computed in doubles and a bound of its error; infinity or NaN where nothing is known.
+struct Estimate {
+    double value;
+    double error;
+
+    /// The sign of the exact value, if the estimate proves it.
+    std::optional<Sign> sign() const {
+        if (value > error) return Sign::positive;
+        if (value < -error) return Sign::negative;
+        return std::nullopt;
+    }
+    bool is_nonzero() const { return std::fabs(value) > error; }
+};
+
+inline constexpr Estimate nothing_known{0, std::numeric_limits<double>::infinity()};
 
 /// Sum of |a_i b_i|.
 inline double absolute_dot(const Vec3& a, const Vec3& b) {
@@ -51,50 +60,53 @@ inline bool are_structurally_coplanar(const Vec3& a, const Vec3& b, const Vec3& 
 ///
 /// With A = |a|^2 |b|^2, C = |c|^2 |d|^2 and D1 = a.b, D2 = c.d the sign is that of D1/sqrt(A) + D2/sqrt(C), hence
 /// (x|x| grows with x) that of F = D1|D1| C + D2|D2| A. Its error is below 49 u A C.
-inline std::optional<Sign> delaunay_filter(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+inline Estimate delaunay_estimate(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     const double aa = squared_norm(a), bb = squared_norm(b), cc = squared_norm(c), dd = squared_norm(d);
     const double smallest = std::min(std::min(aa, bb), std::min(cc, dd));
     const double largest = std::max(std::max(aa, bb), std::max(cc, dd));
-    if (!(smallest > smallest_square && largest < largest_square)) return std::nullopt;
+    if (!(smallest > smallest_square && largest < largest_square)) return nothing_known;
     const double d1 = dot(a, b), d2 = dot(c, d);
     const double square1 = aa * bb, square2 = cc * dd;
     const double value = d1 * std::fabs(d1) * square2 + d2 * std::fabs(d2) * square1;
-    return sign_beyond(value, 50 * unit_roundoff * (square1 * square2));
+    return {value, 50 * unit_roundoff * (square1 * square2)};
 }
 
 /// The sign of a.b for rounded differences; error below 5.01 u sum |a_i b_i|.
-inline std::optional<Sign> dot_filter(const Vec3& a, const Vec3& b) {
-    return sign_beyond(dot(a, b), 6 * unit_roundoff * absolute_dot(a, b) + underflow_allowance);
+inline Estimate dot_estimate(const Vec3& a, const Vec3& b) {
+    return {dot(a, b), 6 * unit_roundoff * absolute_dot(a, b) + underflow_allowance};
 }
 
 /// The sign of det(a, b, c) for rounded differences; error below 8.01 u times the permanent of absolute values.
-inline std::optional<Sign> orientation_filter(const Vec3& a, const Vec3& b, const Vec3& c) {
+inline Estimate orientation_estimate(const Vec3& a, const Vec3& b, const Vec3& c) {
     const double yz = b.y * c.z, zy = b.z * c.y, zx = b.z * c.x, xz = b.x * c.z, xy = b.x * c.y, yx = b.y * c.x;
     const double ax = std::fabs(a.x), ay = std::fabs(a.y), az = std::fabs(a.z);
     const double det = a.x * (yz - zy) + a.y * (zx - xz) + a.z * (xy - yx);
     const double permanent = ax * (std::fabs(yz) + std::fabs(zy)) + ay * (std::fabs(zx) + std::fabs(xz)) +
                              az * (std::fabs(xy) + std::fabs(yx));
-    return sign_beyond(det, 9 * unit_roundoff * permanent + underflow_allowance * (1 + (ax + ay + az)));
+    return {det, 9 * unit_roundoff * permanent + underflow_allowance * (1 + (ax + ay + az))};
 }
 
-/// True if the rounded differences are proved not to be parallel; error of each component below 4.01 u times its
-/// permanent.
+/// One component a1 b2 - a2 b1 of a x b for rounded differences; error below 4.01 u (|a1 b2| + |a2 b1|).
+inline Estimate cross_estimate(double a1, double a2, double b1, double b2) {
+    const double s = a1 * b2, t = a2 * b1;
+    return {s - t, 5 * unit_roundoff * (std::fabs(s) + std::fabs(t)) + underflow_allowance};
+}
+
+/// True if the rounded differences are proved not to be parallel.
 inline bool are_clearly_independent(const Vec3& a, const Vec3& b) {
-    const auto beyond = [](double s, double t) {
-        return std::fabs(s - t) > 5 * unit_roundoff * (std::fabs(s) + std::fabs(t)) + underflow_allowance;
-    };
-    return beyond(a.x * b.y, a.y * b.x) || beyond(a.y * b.z, a.z * b.y) || beyond(a.z * b.x, a.x * b.z);
+    return cross_estimate(a.x, a.y, b.x, b.y).is_nonzero() || cross_estimate(a.y, a.z, b.y, b.z).is_nonzero() ||
+           cross_estimate(a.z, a.x, b.z, b.x).is_nonzero();
 }
 
 /// dihedral_sign for the rounded differences e = q-p, a = u-p, c = v-p: n1.n2 - cosine |n1||n2| with n1 = e x a,
 /// n2 = c x e; error below 35 u |e|^2 |a||c|.
-inline std::optional<Sign> dihedral_filter(const Vec3& e, const Vec3& a, const Vec3& c, double cosine) {
+inline Estimate dihedral_estimate(const Vec3& e, const Vec3& a, const Vec3& c, double cosine) {
     const double ee = squared_norm(e), aa = squared_norm(a), cc = squared_norm(c);
     const double smallest = std::min(ee, std::min(aa, cc)), largest = std::max(ee, std::max(aa, cc));
-    if (!(smallest > smallest_square && largest < largest_square)) return std::nullopt;
+    if (!(smallest > smallest_square && largest < largest_square)) return nothing_known;
     const Vec3 n1 = cross(e, a), n2 = cross(c, e);
     const double lengths = std::sqrt(squared_norm(n1)) * std::sqrt(squared_norm(n2));
-    return sign_beyond(dot(n1, n2) - cosine * lengths, 40 * unit_roundoff * (ee * std::sqrt(aa * cc)));
+    return {dot(n1, n2) - cosine * lengths, 40 * unit_roundoff * (ee * std::sqrt(aa * cc))};
 }
 
 }  // namespace delmesh::exact

@@ -23,17 +23,18 @@ bool are_collinear_unfiltered(const Vec3& a, const Vec3& b, const Vec3& c, Tier*
 bool is_planar_edge_unfiltered(const Vec3& p, const Vec3& q, const Vec3& u, const Vec3& v, Tier* tier);
 
 inline Sign delaunay_sign_inline(const Vec3& p, const Vec3& q, const Vec3& u, const Vec3& v, Tier* tier = nullptr) {
-    if (const auto sign = delaunay_filter(p - u, q - u, p - v, q - v)) return decided(*sign, Tier::filter, tier);
+    if (const auto sign = delaunay_estimate(p - u, q - u, p - v, q - v).sign())
+        return decided(*sign, Tier::filter, tier);
     return delaunay_sign_unfiltered(p, q, u, v, tier);
 }
 
 inline Sign right_angle_sign_inline(const Vec3& p, const Vec3& q, const Vec3& u, Tier* tier = nullptr) {
-    if (const auto sign = dot_filter(p - u, q - u)) return decided(*sign, Tier::filter, tier);
+    if (const auto sign = dot_estimate(p - u, q - u).sign()) return decided(*sign, Tier::filter, tier);
     return right_angle_sign_unfiltered(p, q, u, tier);
 }
 
 inline Sign orientation_inline(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, Tier* tier = nullptr) {
-    if (const auto sign = orientation_filter(b - a, c - a, d - a)) return decided(*sign, Tier::filter, tier);
+    if (const auto sign = orientation_estimate(b - a, c - a, d - a).sign()) return decided(*sign, Tier::filter, tier);
     return orientation_unfiltered(a, b, c, d, tier);
 }
 
@@ -43,7 +44,7 @@ inline bool are_collinear_inline(const Vec3& a, const Vec3& b, const Vec3& c, Ti
 }
 
 inline bool is_planar_edge_inline(const Vec3& p, const Vec3& q, const Vec3& u, const Vec3& v, Tier* tier = nullptr) {
-    if (orientation_filter(q - p, u - p, v - p)) return decided(false, Tier::filter, tier);
+    if (orientation_estimate(q - p, u - p, v - p).is_nonzero()) return decided(false, Tier::filter, tier);
     return is_planar_edge_unfiltered(p, q, u, v, tier);
 }
 

@@ -6,6 +6,8 @@
 #include "exact/lattice.hpp"
 #include "exact/tiers.hpp"
 
+#include <cassert>
+
 namespace delmesh {
 namespace exact {
 namespace {
@@ -22,11 +24,11 @@ Vec3 times_power_of_two(const Vec3& a, int exponent) {
 }
 
 /// A second try of a filter for very long or very short differences: in a unit of their own size.
-template <class Filter, class... Differences>
-std::optional<Sign> rescaled(Filter filter, const Differences&... differences) {
+template <class Estimator, class... Differences>
+std::optional<Sign> rescaled(Estimator estimate, const Differences&... differences) {
     const int exponent = exponent_above(std::max({largest_coordinate(differences)...}));
     if (std::abs(exponent) <= ordinary_exponent) return std::nullopt;
-    return filter(times_power_of_two(differences, -exponent)...);
+    return estimate(times_power_of_two(differences, -exponent)...).sign();
 }
 
 }  // namespace
@@ -35,7 +37,7 @@ Sign delaunay_sign_unfiltered(const Vec3& p, const Vec3& q, const Vec3& u, const
     const Vec3 a = p - u, b = q - u, c = p - v, d = q - v;
     if (is_structurally_orthogonal(a, b) && is_structurally_orthogonal(c, d))
         return decided(Sign::zero, Tier::filter, tier);
-    if (const auto sign = rescaled(delaunay_filter, a, b, c, d)) return decided(*sign, Tier::filter, tier);
+    if (const auto sign = rescaled(delaunay_estimate, a, b, c, d)) return decided(*sign, Tier::filter, tier);
     if (const auto sign = delaunay_fixed(p, q, u, v)) return decided(*sign, Tier::fixed, tier);
     return decided(delaunay_big(p, q, u, v), Tier::big, tier);
 }
@@ -43,7 +45,7 @@ Sign delaunay_sign_unfiltered(const Vec3& p, const Vec3& q, const Vec3& u, const
 Sign right_angle_sign_unfiltered(const Vec3& p, const Vec3& q, const Vec3& u, Tier* tier) {
     const Vec3 a = p - u, b = q - u;
     if (is_structurally_orthogonal(a, b)) return decided(Sign::zero, Tier::filter, tier);
-    if (const auto sign = rescaled(dot_filter, a, b)) return decided(*sign, Tier::filter, tier);
+    if (const auto sign = rescaled(dot_estimate, a, b)) return decided(*sign, Tier::filter, tier);
     if (const auto sign = right_angle_fixed(p, q, u)) return decided(*sign, Tier::fixed, tier);
     return decided(right_angle_big(p, q, u), Tier::big, tier);
 }
@@ -51,7 +53,7 @@ Sign right_angle_sign_unfiltered(const Vec3& p, const Vec3& q, const Vec3& u, Ti
 Sign orientation_unfiltered(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, Tier* tier) {
     const Vec3 ab = b - a, ac = c - a, ad = d - a;
     if (are_structurally_coplanar(ab, ac, ad)) return decided(Sign::zero, Tier::filter, tier);
-    if (const auto sign = rescaled(orientation_filter, ab, ac, ad)) return decided(*sign, Tier::filter, tier);
+    if (const auto sign = rescaled(orientation_estimate, ab, ac, ad)) return decided(*sign, Tier::filter, tier);
     if (const auto sign = orientation_fixed(a, b, c, d)) return decided(*sign, Tier::fixed, tier);
     return decided(orientation_big(a, b, c, d), Tier::big, tier);
 }
@@ -63,8 +65,8 @@ bool are_collinear_unfiltered(const Vec3& a, const Vec3& b, const Vec3& c, Tier*
 
 bool is_planar_edge_unfiltered(const Vec3& p, const Vec3& q, const Vec3& u, const Vec3& v, Tier* tier) {
     const Vec3 e = q - p, a = u - p, c = v - p;
-    if (rescaled(orientation_filter, e, a, c)) return decided(false, Tier::filter, tier);
-    const auto side = dihedral_filter(e, a, c, 0);
+    if (rescaled(orientation_estimate, e, a, c)) return decided(false, Tier::filter, tier);
+    const auto side = dihedral_estimate(e, a, c, 0).sign();
     if (side == Sign::negative) return decided(false, Tier::filter, tier);
     if (side == Sign::positive && are_structurally_coplanar(e, a, c)) return decided(true, Tier::filter, tier);
     if (const auto answer = is_planar_edge_fixed(p, q, u, v)) return decided(*answer, Tier::fixed, tier);
@@ -90,18 +92,19 @@ bool are_collinear(const Vec3& a, const Vec3& b, const Vec3& c, Tier* tier) {
 }
 
 Sign dihedral_sign(const Vec3& p, const Vec3& q, const Vec3& u, const Vec3& v, double cosine, Tier* tier) {
+    assert(std::fabs(cosine) <= 1);
     using exact::decided;
     const Vec3 e = q - p, a = u - p, c = v - p;
     if (std::fabs(cosine) == 1) {  // what is not coplanar is neither flat nor folded over
-        if (exact::orientation_filter(e, a, c))
+        if (exact::orientation_estimate(e, a, c).is_nonzero())
             return decided(cosine > 0 ? Sign::negative : Sign::positive, Tier::filter, tier);
-    } else if (const auto sign = exact::dihedral_filter(e, a, c, cosine)) {
+    } else if (const auto sign = exact::dihedral_estimate(e, a, c, cosine).sign()) {
         return decided(*sign, Tier::filter, tier);
     }
-    const auto filter = [=](const Vec3& s, const Vec3& t, const Vec3& w) {
-        return exact::dihedral_filter(s, t, w, cosine);
+    const auto estimate = [=](const Vec3& s, const Vec3& t, const Vec3& w) {
+        return exact::dihedral_estimate(s, t, w, cosine);
     };
-    if (const auto sign = exact::rescaled(filter, e, a, c)) return decided(*sign, Tier::filter, tier);
+    if (const auto sign = exact::rescaled(estimate, e, a, c)) return decided(*sign, Tier::filter, tier);
     if (const auto sign = exact::dihedral_fixed(p, q, u, v, cosine)) return decided(*sign, Tier::fixed, tier);
     return decided(exact::dihedral_big(p, q, u, v, cosine), Tier::big, tier);
 }

@@ -3,11 +3,14 @@
 
 #include "delmesh/base/vec3.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <ostream>
+#include <vector>
 
 namespace delmesh::families {
 
@@ -42,9 +45,16 @@ private:
 
 struct Quad {
     Vec3 p, q, u, v;
+
+    /// All bits, for messages.
+    friend std::ostream& operator<<(std::ostream& out, const Quad& quad) {
+        for (const Vec3& a : {quad.p, quad.q, quad.u, quad.v})
+            out << std::hexfloat << "{" << a.x << ", " << a.y << ", " << a.z << "} ";
+        return out;
+    }
 };
 
-/// Moves one coordinate of one point by at most one unit in the last place.
+/// Moves one coordinate of one point by one unit in the last place or not at all.
 inline Quad nudged(Quad quad, Random& random) {
     std::array<Vec3*, 4> points{&quad.p, &quad.q, &quad.u, &quad.v};
     double& x = (*points[static_cast<std::size_t>(random.below(4))])[random.below(3)];
@@ -102,7 +112,7 @@ private:
     std::array<double, 4> quaternion_{};
 };
 
-/// Four points of a circle by rational parameters, p and q apart, u and v on the two arcs between; rotated and rounded.
+/// Four points of the unit circle by rational parameters, u and v on the two arcs between p and q; rotated, rounded.
 inline Quad circle(Random& random, double offset = 0) {
     const auto at = [](double t) { return Vec3{(1 - t * t) / (1 + t * t), 2 * t / (1 + t * t), 0}; };
     const Rotation rotation(random);
@@ -131,6 +141,60 @@ inline Quad sloping_grid_cell(Random& random, bool axis_parallel = false) {
     const Quad flat{node(i, j), node(i + 1, j + 1), node(i + 1, j), node(i, j + 1)};
     const Rotation rotation(random);
     return axis_parallel ? flat : mapped(flat, rotation);
+}
+
+/// Maps the xy-plane to a plane in general position, exactly: the rows are orthogonal and of length 9.
+inline Vec3 tilted(const Vec3& a) {
+    return {a.x * 1 + a.y * 2 + a.z * 2, a.x * 2 + a.y * 1 - a.z * 2, a.x * 2 - a.y * 2 + a.z * 1};
+}
+
+/// Four integer points of the circle x^2 + y^2 = 1105^2, which has 108 of them, in a tilted plane: exactly co-circular,
+/// coplanar, u and v on different sides of pq.
+inline Quad integer_circle(Random& random) {
+    static const std::vector<Vec3> points = [] {
+        std::vector<Vec3> found;
+        const auto add_row = [&](int y, int sign) {
+            const int x = static_cast<int>(std::lround(std::sqrt(1105.0 * 1105 - 1.0 * y * y)));
+            if (x * x + y * y == 1105 * 1105 && (sign > 0 || x != 0)) found.push_back({1.0 * sign * x, 1.0 * y, 0});
+        };
+        for (int y = 1105; y >= -1105; --y) add_row(y, 1);   // clockwise from the top,
+        for (int y = -1105; y <= 1105; ++y) add_row(y, -1);  // and up again on the left
+        return found;
+    }();
+    const int n = static_cast<int>(points.size());
+    std::array<int, 4> i{};
+    do {
+        for (int& k : i) k = random.below(n);
+        std::sort(i.begin(), i.end());
+    } while (std::adjacent_find(i.begin(), i.end()) != i.end());
+    const auto at = [&](int k) { return points[static_cast<std::size_t>(i[static_cast<std::size_t>(k)])]; };
+    return mapped(Quad{at(0), at(2), at(1), at(3)}, tilted);
+}
+
+/// Chords that cross at the origin with |p||q| = |u||v|: exactly co-circular, then v is turned about pq by the angle of
+/// the triangle 3, 4, 5, which keeps the angle at v. Not coplanar.
+inline Quad folded_kite(Random& random) {
+    const double s = 1 + random.below(5000), t = 1 + random.below(5000);
+    const double n = -t * t;
+    return mapped(Quad{{-5 * s * t, 0, 0}, {5 * s * t, 0, 0}, {0, 5 * s * s, 0}, {0, 3 * n, 4 * n}}, tilted);
+}
+
+/// p and q opposite on a sphere, u and v on it as well: two right angles (Thales), D1 = D2 = 0.
+inline Quad thales(Random& random) {
+    const auto on_sphere = [&] {  // permutations of (1, 2, 2) and (0, 0, 3) with signs
+        const int axis = random.below(3);
+        const bool pole = random.below(4) == 0;
+        Vec3 a;
+        for (int k = 0; k < 3; ++k)
+            a[k] = (random.below(2) == 0 ? 1 : -1) * (pole ? (k == axis ? 3 : 0) : k == axis ? 1 : 2);
+        return a;
+    };
+    const Vec3 p = on_sphere();
+    Vec3 u = on_sphere(), v = on_sphere();
+    while (u == p || u == -p) u = on_sphere();
+    while (v == p || v == -p) v = on_sphere();
+    const double size = 1 + random.below(1 << 20);
+    return mapped(Quad{p, -p, u, v}, [=](const Vec3& a) { return size * tilted(a); });
 }
 
 /// Apexes far away or close to the line pq: angles near 0 and near pi.
@@ -179,6 +243,17 @@ inline Quad mixed_scales(Random& random) {
                  sy = scales[static_cast<std::size_t>(random.below(6))];
     const double sz = scales[static_cast<std::size_t>(random.below(6))];
     return mapped(quad, [=](const Vec3& a) { return Vec3{a.x * sx, a.y * sy, a.z * sz}; });
+}
+
+/// Of all families with moderate exponents, `count` each and nudged.
+inline std::vector<Quad> mixed_bag(int count) {
+    Random random(30);
+    std::vector<Quad> quads;
+    for (int i = 0; i < count; ++i)
+        for (const Quad& quad : {generic(random), integer_grid(random), circle(random), integer_circle(random),
+                                 folded_circle(random), sloping_grid_cell(random), needle(random), cap(random)})
+            quads.push_back(nudged(quad, random));
+    return quads;
 }
 
 }  // namespace delmesh::families

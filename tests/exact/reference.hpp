@@ -99,11 +99,9 @@ inline Sign dihedral(const Vec3& p, const Vec3& q, const Vec3& u, const Vec3& v,
     const Integer area1 = inner(n1, n1), area2 = inner(n2, n2);
     if (area1 == 0 || area2 == 0) return Sign::zero;
     int exponent = 0;
-    const Integer mantissa = static_cast<long long>(std::ldexp(std::frexp(cosine, &exponent), 53));
-    const Integer unit = boost::multiprecision::pow(Integer(2), 1200);  // cosine = mantissa 2^(exponent - 53)
-    const Integer scale =
-        mantissa == 0 ? Integer(0) : Integer(boost::multiprecision::pow(Integer(2), 1200 + exponent - 53));
-    return sign_of_root_sum(Integer(inner(n1, n2) * unit), 1, Integer(-mantissa * scale), Integer(area1 * area2));
+    const auto mantissa = static_cast<long long>(std::ldexp(std::frexp(cosine, &exponent), 53));
+    const unsigned shift = mantissa == 0 ? 0 : static_cast<unsigned>(53 - exponent);  // cosine = mantissa / 2^shift
+    return sign_of_root_sum(Integer(inner(n1, n2) << shift), 1, Integer(-mantissa), Integer(area1 * area2));
 }
 
 inline bool planar_edge(const Vec3& p, const Vec3& q, const Vec3& u, const Vec3& v) {
