@@ -149,7 +149,7 @@ TEST(Filter, ClaimsNothingFalseWhereDoublesEnd) {
                     : i % 3 == 1 ? scaled(generic(random), exponent)
                                  : mixed_scales(random);
         if (!is_finite(quad.p) || !is_finite(quad.q) || !is_finite(quad.u) || !is_finite(quad.v)) continue;
-        const auto& [p, q, u, v] = quad;
+        const Vec3 p = quad.p, q = quad.q, u = quad.u, v = quad.v;
         const auto expect = [&](std::optional<Sign> claim, auto truth) {
             if (!claim) return;
             ++claimed;
@@ -164,6 +164,26 @@ TEST(Filter, ClaimsNothingFalseWhereDoublesEnd) {
         ASSERT_FALSE(HasFatalFailure());
     }
     EXPECT_GT(claimed, 1000);
+}
+
+/// Where products underflow or overflow, a bound is either infinite or still true.
+TEST(Filter, BoundsHoldWhereDoublesEnd) {
+    Random random(4);
+    Audits audits;
+    for (int i = 0; i < 2000; ++i) {
+        const int exponent = random.below(1200) - 600;
+        audits.check(scaled(i % 2 == 0 ? generic(random) : circle(random), exponent));
+        audits.check(scaled(generic(random), random.below(40) - 150));  // here degree 8 ends
+    }
+    audits.expect_sound();
+    EXPECT_GT(audits.dot.checks, 2000);
+}
+
+/// In units of the smallest double the products are -0.4, -0.4 and 0.6: their sum is negative, as rounded it is 1.
+TEST(Filter, DotEstimateKnowsWhereItUnderflows) {
+    const Vec3 a{-0.4, -0.4, 0.6}, b{5e-324, 5e-324, 5e-324};
+    ASSERT_GT(dot(a, b), 0);
+    EXPECT_FALSE(dot_estimate(a, b).sign());
 }
 
 TEST(Filter, DoesNotDecideWhatIsNotFinite) {
