@@ -78,7 +78,7 @@ private:
             check_boundary(h, p, q, u);
         } else if (h < t) {
             const Vec3& v = mesh_.point(mesh_.apex(t));
-            const auto filtered = exact::delaunay_filter(up, -qu, p - v, q - v);
+            const auto filtered = exact::delaunay_estimate(up, -qu, p - v, q - v).sign();
             const Sign sign = filtered ? *filtered : decide(p, q, u, v);
             if (sign == Sign::negative) note_interior(h, p, q, u, v);
         }
