@@ -1,8 +1,8 @@
 // delmesh check IN: the exact certificate.
 
 #include "commands.hpp"
-#include "delmesh/io/read.hpp"
 #include "exit_code.hpp"
+#include "input.hpp"
 #include "mesh_json.hpp"
 
 #include <memory>
@@ -14,10 +14,12 @@ void add_check_command(CLI::App& app, Action& action) {
         add_command(app, action, "check", "Tell, exactly, whether a mesh is Delaunay (exit code 0) or not (1)",
                     "delmesh check bunny.ply");
     const auto path = std::make_shared<std::string>();
+    const auto input = std::make_shared<InputOptions>();
     command->add_option("IN", *path, "Mesh file")->required();
-    command->callback([&action, path] {
-        action.run = [path](Console& console) {
-            const Mesh mesh(read_soup(*path));
+    input->bind(*command);
+    command->callback([&action, path, input] {
+        action.run = [path, input](Console& console) {
+            const Mesh mesh = build_mesh(*path, load_soup(*path, *input, console));
             const Measured measured = measure(mesh, console.context());
             Json json{{"path", *path}};
             json.update(to_json(measured));

@@ -47,6 +47,7 @@ public:
     /// The exit code of the signal that came, or 0.
     [[nodiscard]] int interrupted() const;
     [[nodiscard]] bool wants_json() const { return options_.json; }
+    [[nodiscard]] bool is_quiet() const { return options_.quiet; }
 
     /// The one JSON object of the command.
     void print(const Json& json);

@@ -2,17 +2,20 @@
 
 #include "commands.hpp"
 #include "delmesh/delaunay/remesh.hpp"
+#include "delmesh/io/edge_list.hpp"
 #include "delmesh/io/provenance_file.hpp"
-#include "delmesh/io/read.hpp"
 #include "delmesh/io/write.hpp"
 #include "delmesh/mesh/rounding.hpp"
 #include "exit_code.hpp"
+#include "input.hpp"
 #include "mesh_json.hpp"
 #include "option_binding.hpp"
 #include "output_options.hpp"
+#include "places.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 namespace delmesh::app {
@@ -20,8 +23,10 @@ namespace {
 
 struct RemeshArguments {
     std::string input;
+    InputOptions input_options;
     OutputOptions output;
     RemeshOptions options;
+    std::string feature_edges;
     bool keep_partial = false;
     std::string provenance;
 };
@@ -31,7 +36,9 @@ struct Outcome {
     Measured before;
     Measured after;
     RemeshReport report;
+    std::optional<RepairReport> repair;
     double rounded_by = 0;
+    PlacesReport places;
     std::vector<std::size_t> witness;
     bool written = false;
     Stopwatch watch;
@@ -39,18 +46,27 @@ struct Outcome {
     [[nodiscard]] bool complete() const { return report.stop == StopReason::done && after.certificate.certified; }
 };
 
-Json to_json(const RemeshArguments& arguments, const Outcome& outcome) {
+Json run_to_json(const RemeshArguments& arguments, const Outcome& outcome) {
+    const RemeshReport& report = outcome.report;
     Json json;
     json["input"] = {{"path", arguments.input}};
     json["input"].update(to_json(outcome.before));
     json["output"] = {{"path", arguments.output.path}, {"written", outcome.written}};
     json["output"].update(to_json(outcome.after));
-    json["flips"] = outcome.report.flips;
-    json["splits"] = outcome.report.splits;
-    json["lower_bound"] = outcome.report.lower_bound;
-    json["stop"] = name(outcome.report.stop);
+    json["flips"] = report.flips;
+    json["splits"] = report.splits;
+    json["splits_boundary"] = report.splits_boundary;
+    json["splits_feature"] = report.splits_feature;
+    json["splits_unflippable"] = report.splits_unflippable;
+    json["exposed"] = report.exposed;
+    json["foldovers"] = report.foldovers;
+    if (arguments.options.mode == RemeshMode::preserve) json["lower_bound"] = report.lower_bound;
+    json["stop"] = name(report.stop);
     json["witness"] = outcome.witness.empty() ? Json() : Json(outcome.witness);
     json["rounded_by"] = outcome.rounded_by;
+    json["welded"] = outcome.places.welded;
+    json["parted"] = outcome.places.parted;
+    if (outcome.repair) json["repair"] = to_json(*outcome.repair);
     json["options"] = options_to_json(arguments.options);
     json["options"]["precision"] = choices(Precision{})[static_cast<std::size_t>(arguments.options.precision)];
     json["seconds"] = outcome.watch.seconds();
@@ -81,19 +97,65 @@ std::string why_it_stopped(const RemeshArguments& arguments, const Outcome& outc
     return "the result is " + verdict(outcome.after);
 }
 
+std::string summary(const RemeshReport& report, double seconds, bool preserve) {
+    std::string text = fmt::format("{} flips, {} splits", with_commas(report.flips), with_commas(report.splits));
+    if (preserve)
+        text += fmt::format(" (no method that keeps the surface adds fewer than {})", with_commas(report.lower_bound));
+    if (report.foldovers > 0)
+        text += fmt::format(", {} faces turned by more than 90 degrees", with_commas(report.foldovers));
+    return text + fmt::format(" in {:.3g} s", seconds);
+}
+
 void tell_people(const RemeshArguments& arguments, const Outcome& outcome, Console& console) {
     console.say(comparison_table({"before", "after"}, {outcome.before, outcome.after}));
-    console.say(fmt::format("\n{} flips, {} splits (no method adds fewer than {}) in {:.3g} s",
-                            with_commas(outcome.report.flips), with_commas(outcome.report.splits),
-                            with_commas(outcome.report.lower_bound), outcome.watch.seconds()["total"].get<double>()));
+    console.say("\n" + summary(outcome.report, outcome.watch.seconds()["total"].get<double>(),
+                               arguments.options.mode == RemeshMode::preserve));
     if (outcome.rounded_by > 0)
         console.say(
             fmt::format("input rounded to floats first: no vertex moved further than {:.3g}", outcome.rounded_by));
+    if (outcome.places.welded > 0)
+        console.say(fmt::format("{} vertices joined with others at their place, as STL does", outcome.places.welded));
+    if (outcome.places.parted > 0)
+        console.say(fmt::format("{} vertices moved by the last bit, as STL would join them with others at their place",
+                                outcome.places.parted));
     if (outcome.written) console.say(fmt::format("wrote {}", arguments.output.path));
+}
+
+/// Growth is finite but can be absurd: a sphere stretched by a million wants billions of vertices.
+std::size_t sensible_limit(std::size_t vertices) {
+    return std::max(20 * vertices, vertices + 5'000'000);
+}
+
+void complete_options(RemeshArguments& arguments, const PolygonSoup& soup) {
+    RemeshOptions& options = arguments.options;
+    options.precision = arguments.output.precision();
+    if (options.max_vertices == 0) options.max_vertices = sensible_limit(soup.points.size());
+    if (options.mode != RemeshMode::feature) return;
+    const auto add = [&options](const std::array<std::uint32_t, 2>& edge) {
+        options.feature_edges.push_back({VertexId(edge[0]), VertexId(edge[1])});
+    };
+    for (const auto& line : soup.lines) add(line);
+    if (arguments.feature_edges.empty()) return;
+    for (const auto& edge : read_edge_list(arguments.feature_edges)) add(edge);
+}
+
+Mesh load(RemeshArguments& arguments, const WriteOptions& write_options, Console& console, Outcome& outcome) {
+    PolygonSoup soup = load_soup(arguments.input, arguments.input_options, console, &outcome.repair);
+    if (arguments.output.precision() == Precision::float32) outcome.rounded_by = round_to_float(soup);
+    if (*write_options.format == Format::stl) {
+        triangulate(soup);
+        outcome.places = tell_places_apart(soup);
+    }
+    complete_options(arguments, soup);
+    outcome.watch.lap("read");
+    Mesh mesh = build_mesh(arguments.input, std::move(soup));
+    outcome.watch.lap("build");
+    return mesh;
 }
 
 void write_results(const RemeshArguments& arguments, const WriteOptions& options, const Mesh& mesh, Outcome& outcome) {
     if (!outcome.complete() && !arguments.keep_partial) return;
+    if (*options.format == Format::stl) check_places(arguments.output.path, mesh);
     write_mesh(arguments.output.path, mesh, options);
     if (!arguments.provenance.empty()) write_provenance(arguments.provenance, outcome.report.provenance);
     outcome.written = true;
@@ -101,13 +163,8 @@ void write_results(const RemeshArguments& arguments, const WriteOptions& options
 
 int run_remesh(RemeshArguments& arguments, Console& console) {
     const WriteOptions write_options = arguments.output.write_options();
-    arguments.options.precision = arguments.output.precision();
     Outcome outcome;
-    PolygonSoup soup = read_soup(arguments.input);
-    if (arguments.options.precision == Precision::float32) outcome.rounded_by = round_to_float(soup);
-    outcome.watch.lap("read");
-    Mesh mesh(std::move(soup));
-    outcome.watch.lap("build");
+    Mesh mesh = load(arguments, write_options, console, outcome);
     outcome.before = measure(mesh, console.context());
     outcome.watch.lap("measure");
     outcome.report = make_delaunay(mesh, arguments.options, console.context());
@@ -122,7 +179,7 @@ int run_remesh(RemeshArguments& arguments, Console& console) {
     write_results(arguments, write_options, mesh, outcome);
     outcome.watch.lap("write");
 
-    if (console.wants_json()) console.print(to_json(arguments, outcome));
+    if (console.wants_json()) console.print(run_to_json(arguments, outcome));
     tell_people(arguments, outcome, console);
     if (outcome.complete()) return exit_done;
     fmt::print(stderr, "delmesh: {}: {}{}\n", arguments.input, why_it_stopped(arguments, outcome),
@@ -138,7 +195,12 @@ void add_remesh_command(CLI::App& app, Action& action) {
     const auto arguments = std::make_shared<RemeshArguments>();
     command->add_option("IN", arguments->input, "Mesh file: PLY, OBJ, OFF or STL")->required();
     command->add_option("OUT", arguments->output.path, "File to write; its ending tells the format")->required();
+    arguments->input_options.bind(*command);
     bind_options(*command, arguments->options);
+    command
+        ->add_option("--feature-edges", arguments->feature_edges,
+                     "Mode feature: a text file of edges to keep, two vertex numbers (from 0) a line")
+        ->type_name("FILE");
     arguments->output.bind(*command);
     command->add_flag("--keep-partial", arguments->keep_partial, "Write the mesh even if the run stopped short");
     command->add_option("--provenance", arguments->provenance, "Write where vertices and faces come from, as JSON")

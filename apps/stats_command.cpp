@@ -1,8 +1,8 @@
 // delmesh stats IN...: the columns of the paper's Table 1.
 
 #include "commands.hpp"
-#include "delmesh/io/read.hpp"
 #include "exit_code.hpp"
+#include "input.hpp"
 #include "mesh_json.hpp"
 
 #include <fmt/format.h>
@@ -28,11 +28,11 @@ std::string table(const std::vector<std::string>& paths, const std::vector<Measu
     return format_table(rows);
 }
 
-int run_stats(const std::vector<std::string>& paths, Console& console) {
+int run_stats(const std::vector<std::string>& paths, const InputOptions& input, Console& console) {
     std::vector<Measured> meshes;
     Json list = Json::array();
     for (const std::string& path : paths) {
-        const Mesh mesh(read_soup(path));
+        const Mesh mesh = build_mesh(path, load_soup(path, input, console));
         meshes.push_back(measure(mesh, console.context()));
         list.push_back({{"path", path}});
         list.back().update(to_json(meshes.back()));
@@ -53,9 +53,12 @@ void add_stats_command(CLI::App& app, Action& action) {
         add_command(app, action, "stats", "Print size, angle statistics and Delaunay state, a row for each mesh",
                     "delmesh stats before.ply after.ply");
     const auto paths = std::make_shared<std::vector<std::string>>();
+    const auto input = std::make_shared<InputOptions>();
     command->add_option("IN", *paths, "Mesh files")->required();
-    command->callback(
-        [&action, paths] { action.run = [paths](Console& console) { return run_stats(*paths, console); }; });
+    input->bind(*command);
+    command->callback([&action, paths, input] {
+        action.run = [paths, input](Console& console) { return run_stats(*paths, *input, console); };
+    });
 }
 
 }  // namespace delmesh::app

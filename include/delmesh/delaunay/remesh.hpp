@@ -86,8 +86,13 @@ struct RemeshOptions {
                          .unit = "abs",
                          .lowest = std::numeric_limits<double>::denorm_min(),
                          .help = "split vertices lie at 2^k times this from an end of their edge"});
-        visit(self.max_vertices,
-              OptionInfo{.name = "max-vertices", .lowest = 0, .help = "stop before the output has more; 0: no limit"});
+        visit(
+            self.max_vertices,
+            OptionInfo{
+                .name = "max-vertices",
+                .lowest = 0,
+                .help =
+                    "stop before the output has more; 0: the command stops at 20 times the input, or 5 million more"});
     }
 };
 

@@ -3,6 +3,7 @@
 
 #include "delmesh/base/context.hpp"
 #include "delmesh/base/ids.hpp"
+#include "delmesh/base/option.hpp"
 #include "delmesh/mesh/polygon_soup.hpp"
 
 #include <cstddef>
@@ -17,11 +18,15 @@ struct RepairOptions {
     /// at exactly the same place do. In [0, 1].
     double weld_tolerance_rel = 0;
 
-    /// Calls visitor(field, name, unit, lowest, highest, help) for each option: the one place that describes them.
+    /// See option.hpp.
     template <class Self, class Visitor>
     static void describe(Self& self, Visitor&& visit) {
-        visit(self.weld_tolerance_rel, "weld", "of the bounding-box diagonal", 0.0, 1.0,
-              "vertices no farther apart than this become one (0: only at exactly the same place)");
+        visit(self.weld_tolerance_rel,
+              OptionInfo{.name = "weld",
+                         .unit = "rel",
+                         .lowest = 0,
+                         .highest = 1,
+                         .help = "vertices no farther apart than this become one; 0: only at exactly the same place"});
     }
 };
 

@@ -1,0 +1,35 @@
+#pragma once
+// How every command gets its mesh: read, mended where that is asked for, built.
+
+#include "console.hpp"
+#include "delmesh/mesh/mesh.hpp"
+#include "delmesh/repair/repair.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+#include <string>
+
+namespace delmesh::app {
+
+struct InputOptions {
+    bool repair = false;
+    RepairOptions repair_options;
+
+    /// Adds --repair and --weld.
+    void bind(CLI::App& command);
+};
+
+/// Reads a file. With --repair it becomes a manifold, and what was wrong is told on standard error.
+[[nodiscard]] PolygonSoup load_soup(const std::string& path, const InputOptions& options, const Console& console,
+                                    std::optional<RepairReport>* report = nullptr);
+
+/// Builds the mesh; errors name the file.
+[[nodiscard]] Mesh build_mesh(const std::string& path, PolygonSoup soup);
+
+[[nodiscard]] Json to_json(const RepairReport& report);
+
+/// A line for each kind of defect.
+[[nodiscard]] std::string findings_text(const RepairReport& report);
+
+}  // namespace delmesh::app
