@@ -1,0 +1,29 @@
+"""The order of flips: worst first (the paper's), first in first out, last in first out."""
+
+import command
+from table1 import PAPER, SAMPLES
+
+ORDERS = ["worst", "fifo", "lifo"]
+
+
+def sources():
+    for mesh, file, _ in PAPER:
+        if file is not None and (command.PAPER_MESHES / file).exists():
+            yield mesh, command.PAPER_MESHES / file
+    for name, faces in SAMPLES:
+        yield name, command.sample(name, faces)
+
+
+def run():
+    rows = []
+    for mesh, source in sources():
+        for order in ORDERS:
+            path, report = command.remesh(source, f"orders-{source.stem}-{order}", "--mode", "flip", "--order", order)
+            seconds = sorted(command.remesh(source, f"orders-{source.stem}-{order}", "--mode", "flip", "--order",
+                                            order)[1]["seconds"]["remesh"] for _ in range(3))[1]
+            distance = command.delmesh("distance", source, path)
+            rows.append([mesh, order, report["flips"], report["splits"], distance["hausdorff"]["percent"],
+                         distance["mean"]["percent"], seconds])
+            print(*rows[-1])
+    command.save_csv("orders.csv", ["mesh", "order", "flips", "splits", "hausdorff_percent", "mean_percent",
+                                    "remesh_seconds"], rows)
