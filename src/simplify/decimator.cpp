@@ -52,12 +52,31 @@ Decimator::Decimator(Mesh& mesh, const Tuning& tuning, const DecimatorLimits& li
       vertices_(count_used(mesh)),
       blocked_(mesh.halfedge_count()),
       known_(mesh.halfedge_count()) {
-    queue_.reset(mesh.halfedge_count());
-    for (std::size_t i = 0; i < mesh.halfedge_count(); ++i) {
+    merged_into_.resize(mesh.vertex_count());
+    for (std::size_t v = 0; v < merged_into_.size(); ++v) merged_into_[v] = VertexId(v);
+    enqueue_all();
+}
+
+void Decimator::enqueue_all() {
+    queue_.reset(mesh_.halfedge_count());
+    for (std::size_t i = 0; i < mesh_.halfedge_count(); ++i) {
         const HalfedgeId h(i);
-        if (mesh.names_edge(h)) queue_.append(key_of(h), h.value());
+        forget(h);
+        if (mesh_.origin(h).valid() && mesh_.names_edge(h)) queue_.append(key_of(h), h.value());
     }
     queue_.heapify();
+}
+
+std::size_t Decimator::refit(Refitter& refitter, const RefitTuning& tuning, const Context* context) {
+    const auto settle = [this](const Vec3& w) { return settled(w); };
+    const auto moved = [this](VertexId v, const Vec3& w) {
+        weights_.set_history(v, weights_.history(v).moved_to((w - mesh_.point(v)) * scale_));
+    };
+    const std::size_t moves = refitter.run(mesh_, merged_into_, placer_, tuning, settle, moved, context);
+    for (std::size_t v = 0; v < mesh_.vertex_count(); ++v)
+        if (mesh_.halfedge(VertexId(v)).valid()) weights_.refresh(VertexId(v));
+    enqueue_all();
+    return moves;
 }
 
 EdgeCost Decimator::cost_of(HalfedgeId h) const {
@@ -154,8 +173,7 @@ std::uint32_t Decimator::version_of_star() const {
 }
 
 /// The place as it will be stored.
-Vec3 Decimator::settled(const Vec3& local) const {
-    const Vec3 w = star_.frame.to_mesh(local);
+Vec3 Decimator::settled(const Vec3& w) const {
     return limits_.precision == Precision::float32 ? round_to_float(w) : w;
 }
 
@@ -174,7 +192,7 @@ void Decimator::process(const Queue::Entry& entry) {
     if (tuning_.volume > 0) add_volume(cost);
     const auto place = find_place(h, cost);
     if (!place) return block(h, placer_.blocker());
-    const Vec3 w = settled(place->point);
+    const Vec3 w = settled(star_.frame.to_mesh(place->point));
     if (!queue_.empty() && place->cost > entry.key * (1 + cost_tolerance) && place->cost > queue_.top().key) {
         ++counts_.requeued;
         queue_.set(place->cost, h.value());
@@ -202,6 +220,7 @@ void Decimator::accept(HalfedgeId h, const Vec3& w, const Quadric& merged) {
     drop(Mesh::next(h)), drop(Mesh::prev(h));
     if (t.valid()) drop(Mesh::next(t)), drop(Mesh::prev(t));
     collapse(mesh_, h, w);
+    merged_into_[gone.index()] = kept;
     --vertices_;
     ++counts_.collapses;
     weights_.set_history(kept, merged);

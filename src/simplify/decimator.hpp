@@ -5,6 +5,7 @@
 #include "delmesh/mesh/mesh.hpp"
 #include "simplify/placement.hpp"
 #include "simplify/queue.hpp"
+#include "simplify/refit.hpp"
 #include "simplify/slots.hpp"
 #include "simplify/star.hpp"
 #include "simplify/tuning.hpp"
@@ -34,6 +35,10 @@ public:
     /// Collapses until so many vertices are left, nothing can be collapsed any more, or the context is cancelled.
     void run(std::size_t vertices, const Context* context = nullptr);
 
+    /// Moves vertices towards the samples; returns how many moves it took.
+    std::size_t refit(Refitter& refitter, const RefitTuning& tuning, const Context* context = nullptr);
+    [[nodiscard]] double scale() const { return scale_; }
+
     /// Vertices that have faces.
     [[nodiscard]] std::size_t vertices() const { return vertices_; }
     [[nodiscard]] double worst_error() const { return worst_error_; }
@@ -57,13 +62,14 @@ private:
     [[nodiscard]] EdgeCost cost_of(HalfedgeId h) const;
     [[nodiscard]] double key_of(HalfedgeId h) const;
     void add_volume(EdgeCost& cost) const;
+    void enqueue_all();
     void enqueue(HalfedgeId h);
     void forget(HalfedgeId h);
     void block(HalfedgeId h, Blocker why);
     void process(const Queue::Entry& entry);
     [[nodiscard]] std::optional<Place> find_place(HalfedgeId h, const EdgeCost& cost);
     [[nodiscard]] std::uint32_t version_of_star() const;
-    [[nodiscard]] Vec3 settled(const Vec3& local) const;
+    [[nodiscard]] Vec3 settled(const Vec3& w) const;
     [[nodiscard]] bool exceeds_error(const Quadric& merged);
     void accept(HalfedgeId h, const Vec3& w, const Quadric& merged);
     void wake_around(VertexId v, VertexId kept, VertexId gone);
@@ -76,6 +82,7 @@ private:
     VertexWeights weights_;
     std::size_t vertices_ = 0;
     double worst_error_ = 0;
+    std::vector<VertexId> merged_into_;
     Slots<Witness> blocked_;
     /// Places found for edges that went back into the queue because others were cheaper.
     Slots<Known> known_;

@@ -158,6 +158,19 @@ std::optional<Place> Placer::best(const Star& star, const EdgeCost& cost) {
     return place;
 }
 
+std::optional<Place> Placer::improve(const Star& star, const EdgeCost& cost, const Vec3& start) {
+    fail_first_ = 0;
+    const auto factors = factorise(cost.steered);
+    if (!factors) return std::nullopt;
+    if (fits(star, factors->lowest)) return Place{factors->lowest, cost.steered(factors->lowest)};
+    Place place{start, cost.steered(start)};
+    bisect(star, cost, factors->lowest, place);
+    bool found = true;
+    descend(star, cost, place, true, found);
+    if (place.point == start) return std::nullopt;
+    return place;
+}
+
 std::optional<Place> Placer::paper(const Star& star, const EdgeCost& cost) {
     fail_first_ = 0;
     witness_ = 0;

@@ -32,6 +32,9 @@ public:
     /// The paper's: the lowest point over the intersection of half-spaces.
     std::optional<Place> paper(const Star& star, const EdgeCost& cost);
 
+    /// A better place than `start`, where all conditions hold; nothing if there is none.
+    std::optional<Place> improve(const Star& star, const EdgeCost& cost, const Vec3& start);
+
     /// Of the last call that found no place: the condition that the best place of all would have violated, and the
     /// face of the star that belongs to it.
     [[nodiscard]] Blocker blocker() const { return blocker_; }

@@ -91,6 +91,26 @@ void drop_isolated(Mesh& mesh) {
         if (mesh.is_live(VertexId(v)) && !mesh.halfedge(VertexId(v)).valid()) remove_isolated(mesh, VertexId(v));
 }
 
+Mesh without_dead(const Mesh& mesh) {
+    Mesh copy = mesh;
+    drop_isolated(copy);
+    compact(copy);
+    return copy;
+}
+
+/// Quadrics of the current faces drift away from the original: every time the vertices have become half as many, they
+/// are moved back.
+std::size_t refit_on_the_way(Decimator& decimator, Refitter& refitter, std::size_t input_vertices, std::size_t target,
+                             const Context* context) {
+    std::size_t moves = 0;
+    for (std::size_t stop = input_vertices / 4; stop > target + target / 2 && !is_cancelled(context); stop /= 2) {
+        if (stop >= decimator.vertices()) continue;
+        decimator.run(stop, context);
+        moves += decimator.refit(refitter, {}, context);
+    }
+    return moves;
+}
+
 }  // namespace
 
 std::span<const std::string_view> choices(Placement) {
@@ -122,18 +142,19 @@ SimplifyReport simplify(Mesh& mesh, const SimplifyOptions& options, const Contex
     }
     Decimator decimator(mesh, tuning_for(options),
                         {options.max_quadric_error_rel * diagonal, options.remesh.precision});
+    std::optional<Refitter> refitter;
+    if (options.refit && options.max_quadric_error_rel == 0 && options.placement == Placement::best)
+        refitter.emplace(mesh, report.input_vertices, decimator.scale());
     const std::vector<std::size_t> targets = find_targets(options, report.input_vertices);
     for (const std::size_t target : targets) {
+        if (refitter) report.moves += refit_on_the_way(decimator, *refitter, report.input_vertices, target, context);
         decimator.run(target, context);
         report.levels.push_back(describe_level(decimator, target, context));
+        if (refitter) report.moves += decimator.refit(*refitter, {}, context);
         report.stop = report.levels.back().stop;
         const bool last = target == targets.back() || report.stop == SimplifyStop::cancelled;
         if (last) break;
-        if (!options.on_level) continue;
-        Mesh copy = mesh;
-        drop_isolated(copy);
-        compact(copy);
-        options.on_level(copy, report.levels.back());
+        if (options.on_level) options.on_level(without_dead(mesh), report.levels.back());
     }
     report.collapses = decimator.counts().collapses;
     drop_isolated(mesh);

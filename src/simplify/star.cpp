@@ -117,6 +117,23 @@ bool gather(const Mesh& mesh, HalfedgeId h, double scale, Star& star) {
     return gather_open(mesh, h, star, star.u_point, star.v_point);
 }
 
+void gather(const Mesh& mesh, VertexId v, double scale, Star& star) {
+    star.u = star.v = v;
+    star.frame = {scale, 1 / scale, mesh.point(v)};
+    star.u_point = star.v_point = {};
+    star.closed = !mesh.is_boundary(v);
+    star.ring.clear();
+    star.dying_count = 0;
+    Gatherer gatherer(mesh, star);
+    const HalfedgeId start = mesh.halfedge(v);
+    if (!star.closed) {
+        gatherer.add_end(mesh.apex(gatherer.walk(start, HalfedgeId(), {})));
+        return;
+    }
+    gatherer.walk(mesh.next_around(start), start, {});
+    gatherer.walk(start, mesh.next_around(start), {});
+}
+
 namespace {
 
 /// Cotangents of the angles of the face (w, a, b), and whether it keeps its side.

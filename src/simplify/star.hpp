@@ -50,6 +50,9 @@ struct Star {
 /// chain or one cycle around w with distinct vertices.
 [[nodiscard]] bool gather(const Mesh& mesh, HalfedgeId h, double scale, Star& star);
 
+/// The star of a vertex as it is: nothing dies.
+void gather(const Mesh& mesh, VertexId v, double scale, Star& star);
+
 /// The first condition that w (local) violates, in floating point; faces are tried from `first` on, which is set to the
 /// offending one. Within rounding, `none` is only a proposal: `keeps_delaunay` decides.
 [[nodiscard]] Blocker find_blocker(const Star& star, const Vec3& w, std::size_t& first);

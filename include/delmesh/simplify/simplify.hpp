@@ -67,7 +67,8 @@ struct SimplifyOptions {
     double max_quadric_error_rel = 0;
     /// Creases sharper than this keep their shape as the boundary does; 180: none are treated apart.
     double feature_angle_deg = 180;
-    /// Moves vertices closer to the original surface when a level is reached.
+    /// Moves vertices closer to samples of the original surface when a level is reached, and now and then on the way.
+    /// Only with placement `best` and without `max_quadric_error_rel`.
     bool refit = true;
     /// How an input that is not Delaunay yet is made so. `remesh.precision` is also what new vertices are rounded to.
     RemeshOptions remesh = default_remesh();
