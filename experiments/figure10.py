@@ -22,7 +22,7 @@ class Subject:
 
 
 def subjects():
-    yield Subject("plate", command.sample("plate", 1000), (0.5, -0.9, 0.9), (0, 0, 1), (0.25, 0.25, 0.9), 0.45)
+    yield Subject("plate", command.sample("plate", 1000), (0.1, -0.4, 1), (0, 1, 0), (0.62, 0.55, 1), 0.2)
     yield Subject("noisy-surface", command.sample("noisy-surface", 3000), (0.5, -1, 0.5), (0, 0, 1), (0.7, 0.1, 0.6),
                   0.3)
     horse = command.PAPER_MESHES / "made-coarse-horse-e1050.off"
@@ -47,7 +47,7 @@ def draw(subject):
     near = render.View(original, subject.direction, subject.up, low + (high - low) * subject.middle,
                        subject.extent * max(high - low))
     width = 380
-    heights = [min(int(width * whole.size[1] / whole.size[0]), 460), width]
+    heights = [min(int(width * whole.size[1] / whole.size[0]), 460), int(0.8 * width)]
     figure, axes = pyplot.subplots(2, len(MODES), figsize=(3.1 * len(MODES), 0.6 + 3.1 * sum(heights) / width), dpi=100,
                                    gridspec_kw={"height_ratios": heights})
     rows = []

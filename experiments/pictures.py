@@ -10,8 +10,8 @@ import mesh_file
 import numpy as np
 import render
 
-SAMPLE, FACES = "saddle", 600
-DIRECTION = (0.5, -1.0, 0.6)
+SAMPLE, FACES = "noisy-surface", 1500
+DIRECTION = (0.5, -1.0, 0.5)
 
 
 def coloured(path, view, size, old_vertices):
@@ -27,7 +27,7 @@ def run():
     source = command.sample(SAMPLE, FACES)
     points, _ = mesh_file.read_mesh(source)
     view = render.View(points, DIRECTION, margin=1.02)
-    size = (460, int(460 * view.size[1] / view.size[0]))
+    size = (440, int(440 * view.size[1] / view.size[0]))
     figure, axes = pyplot.subplots(1, 2, figsize=(9.4, 4.7 * size[1] / size[0] + 0.5), dpi=100)
     path, report = command.remesh(source, "before-after")
     bad = report["input"]["delaunay"]["non_delaunay_edges"]

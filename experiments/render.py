@@ -35,13 +35,14 @@ class View:
 
 
 def shade(points, faces, view, colour=SKIN):
-    """One colour for each face, lit from the upper left and from behind the eye."""
+    """One colour for each face, lit from the upper left and from behind the eye; both sides alike."""
     a, b, c = (points[faces[:, i]] for i in range(3))
     normal = np.cross(b - a, c - a)
     length = np.linalg.norm(normal, axis=1, keepdims=True)
     normal = normal / np.where(length > 0, length, 1)
+    normal = np.where((normal @ view.back < 0)[:, None], -normal, normal)
     light = view.axes.T @ np.array([-0.45, 0.65, 0.62])
-    lit = 0.42 + 0.40 * np.clip(normal @ light, 0, 1) + 0.22 * np.abs(normal @ view.back)
+    lit = 0.42 + 0.40 * np.clip(normal @ light, 0, 1) + 0.22 * (normal @ view.back)
     return np.clip(lit[:, None] * np.asarray(colour), 0, 1)
 
 
@@ -115,5 +116,5 @@ def save(figure, path, colours=128):
     """A PNG with a palette: a third of the bytes, and no difference to be seen."""
     path.parent.mkdir(parents=True, exist_ok=True)
     buffer = io.BytesIO()
-    figure.savefig(buffer, format="png")
+    figure.savefig(buffer, format="png", bbox_inches="tight", pad_inches=0.05)
     Image.open(buffer).convert("RGB").quantize(colours, dither=Image.Dither.NONE).save(path, optimize=True)
