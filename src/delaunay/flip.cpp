@@ -62,10 +62,39 @@ private:
     void work_off() {
         while (!queue_.empty() && !splitter_.stopped()) {
             const auto [h, urgency] = queue_.pop();
+            ask_ahead();
             if (++popped_ % 4096 == 0) take_breath(h);
             if (!is_non_delaunay(mesh_, h) || urgency != urgency_of(h)) continue;
             treat(h);
             push_touched();
+        }
+    }
+
+    /// The next edges lie anywhere in the mesh: what they need is asked from memory in three steps, while others are
+    /// worked off.
+    void ask_ahead() const {
+        const VertexId* corners = mesh_.corners().data();
+        for (std::size_t place = 3; place < 7; ++place) {
+            const HalfedgeId h = queue_.upcoming(place);
+            if (!h.valid()) break;
+            __builtin_prefetch(corners + h.index());
+            mesh_.prefetch_twin(h);
+        }
+        for (std::size_t place = 1; place < 3; ++place) {
+            const HalfedgeId h = queue_.upcoming(place);
+            if (!h.valid()) break;
+            const HalfedgeId t = mesh_.twin(h);
+            if (t.valid()) __builtin_prefetch(corners + t.index());
+            for (const VertexId v : {mesh_.origin(h), mesh_.target(h), mesh_.apex(h)})
+                __builtin_prefetch(&mesh_.point(v));
+        }
+        const HalfedgeId h = queue_.upcoming(0);
+        if (!h.valid() || mesh_.is_boundary(h)) return;
+        const HalfedgeId t = mesh_.twin(h);
+        __builtin_prefetch(&mesh_.point(mesh_.apex(t)));
+        for (const HalfedgeId side : {Mesh::next(h), Mesh::prev(h), Mesh::next(t), Mesh::prev(t)}) {
+            const HalfedgeId beyond = mesh_.twin(side);
+            if (beyond.valid()) __builtin_prefetch(corners + beyond.index());
         }
     }
 

@@ -48,6 +48,11 @@ std::uint32_t urgency(const Mesh& mesh, HalfedgeId h) {
     return static_cast<std::uint32_t>((cosine + 1) * 0x1p31 * (1 - 0x1p-30));
 }
 
+HalfedgeId FlipQueue::upcoming(std::size_t place) const {
+    if (place >= size()) return {};
+    return unpack(items_[order_ == FlipOrder::lifo ? items_.size() - 1 - place : first_ + place]).h;
+}
+
 void FlipQueue::fill(const std::vector<Entry>& entries) {
     items_.reserve(items_.size() + entries.size() + entries.size() / 2);
     for (const Entry& entry : entries) items_.push_back(pack(entry));

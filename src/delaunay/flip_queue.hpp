@@ -31,6 +31,8 @@ public:
     [[nodiscard]] bool empty() const { return first_ == items_.size(); }
     [[nodiscard]] std::size_t size() const { return items_.size() - first_; }
     Entry pop();
+    /// What may be popped in a while: place 0 comes next, those up to 6 soon after. Not valid past the end.
+    [[nodiscard]] HalfedgeId upcoming(std::size_t place) const;
     /// Whether the urgency of an entry has to be that of its edge for the entry to count.
     [[nodiscard]] bool uses_urgency() const { return order_ == FlipOrder::worst; }
 

@@ -71,6 +71,8 @@ public:
     [[nodiscard]] bool is_boundary(VertexId v) const { return halfedge(v).valid() && is_boundary(halfedge(v)); }
     /// The next half-edge that leaves the same vertex, counter-clockwise; not valid past the end of an open fan.
     [[nodiscard]] HalfedgeId next_around(HalfedgeId h) const { return twin(prev(h)); }
+    /// Asks memory for the twin of h ahead of its use.
+    void prefetch_twin(HalfedgeId h) const { __builtin_prefetch(twin_.data() + h.index()); }
     /// The half-edge from a to b, or not valid if there is none. Cost: O(smaller valence of the two).
     [[nodiscard]] HalfedgeId find_halfedge(VertexId a, VertexId b) const;
     /// True if an edge joins a and b, in either direction. Cost: O(smaller valence of the two).
