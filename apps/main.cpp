@@ -58,6 +58,7 @@ int main(int argc, char** argv) {
     app.footer("`delmesh COMMAND --help` tells more about a command.");
     Action action;
     add_remesh_command(app, action);
+    add_simplify_command(app, action);
     add_check_command(app, action);
     add_stats_command(app, action);
     add_repair_command(app, action);

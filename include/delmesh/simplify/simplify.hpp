@@ -97,7 +97,7 @@ struct SimplifyOptions {
                          .unit = "rel",
                          .lowest = 0,
                          .help = "no vertex gets farther than this from the planes it stands for; 0: no limit"});
-        visit(self.feature_angle_deg, OptionInfo{.name = "crease-angle",
+        visit(self.feature_angle_deg, OptionInfo{.name = "feature-angle",
                                                  .unit = "deg",
                                                  .lowest = 0,
                                                  .highest = 180,
