@@ -42,10 +42,11 @@ std::size_t count_used(const Mesh& mesh) {
 
 }  // namespace
 
-Decimator::Decimator(Mesh& mesh, const Tuning& tuning, const DecimatorLimits& limits)
+Decimator::Decimator(Mesh& mesh, const Tuning& tuning, const DecimatorLimits& limits, Recorder* recorder)
     : mesh_(mesh),
       tuning_(tuning),
       limits_(limits),
+      recorder_(recorder),
       scale_(power_of_two_scale(mesh)),
       placer_(tuning_),
       weights_(mesh, scale_, tuning_),
@@ -70,6 +71,7 @@ void Decimator::enqueue_all() {
 std::size_t Decimator::refit(Refitter& refitter, const RefitTuning& tuning, const Context* context) {
     const auto settle = [this](const Vec3& w) { return settled(w); };
     const auto moved = [this](VertexId v, const Vec3& w) {
+        if (recorder_ != nullptr) recorder_->moved(v, mesh_.point(v));
         weights_.set_history(v, weights_.history(v).moved_to((w - mesh_.point(v)) * scale_));
     };
     const std::size_t moves = refitter.run(mesh_, merged_into_, placer_, tuning, settle, moved, context);
@@ -219,6 +221,9 @@ void Decimator::accept(HalfedgeId h, const Vec3& w, const Quadric& merged) {
     forget(h);
     drop(Mesh::next(h)), drop(Mesh::prev(h));
     if (t.valid()) drop(Mesh::next(t)), drop(Mesh::prev(t));
+    if (recorder_ != nullptr)
+        recorder_->collapsed(kept, gone, mesh_.apex(h), t.valid() ? mesh_.apex(t) : VertexId(), mesh_.point(kept),
+                             mesh_.point(gone));
     collapse(mesh_, h, w);
     merged_into_[gone.index()] = kept;
     --vertices_;

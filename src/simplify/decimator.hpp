@@ -5,6 +5,7 @@
 #include "delmesh/mesh/mesh.hpp"
 #include "simplify/placement.hpp"
 #include "simplify/queue.hpp"
+#include "simplify/recorder.hpp"
 #include "simplify/refit.hpp"
 #include "simplify/slots.hpp"
 #include "simplify/star.hpp"
@@ -30,7 +31,7 @@ struct DecimatorCounts {
 class Decimator {
 public:
     /// The mesh must be Delaunay and must outlive the decimator.
-    Decimator(Mesh& mesh, const Tuning& tuning, const DecimatorLimits& limits = {});
+    Decimator(Mesh& mesh, const Tuning& tuning, const DecimatorLimits& limits = {}, Recorder* recorder = nullptr);
 
     /// Collapses until so many vertices are left, nothing can be collapsed any more, or the context is cancelled.
     void run(std::size_t vertices, const Context* context = nullptr);
@@ -77,6 +78,7 @@ private:
     Mesh& mesh_;
     const Tuning tuning_;
     const DecimatorLimits limits_;
+    Recorder* const recorder_;
     const double scale_;
     Placer placer_;
     VertexWeights weights_;

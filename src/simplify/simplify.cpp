@@ -4,6 +4,7 @@
 #include "delmesh/measure/certificate.hpp"
 #include "delmesh/measure/statistics.hpp"
 #include "delmesh/mesh/edits.hpp"
+#include "delmesh/simplify/progressive_mesh.hpp"
 #include "simplify/decimator.hpp"
 
 #include <fmt/format.h>
@@ -128,7 +129,10 @@ std::string_view name(Obstacle obstacle) {
     return names[static_cast<std::size_t>(obstacle)];
 }
 
-SimplifyReport simplify(Mesh& mesh, const SimplifyOptions& options, const Context* context) {
+namespace {
+
+SimplifyReport run(Mesh& mesh, const SimplifyOptions& options, ProgressiveMesh* record, const Context* context) {
+    Recorder recorder;
     check_options(options);
     SimplifyReport report;
     report.input_vertices = mesh.vertex_count();
@@ -137,11 +141,12 @@ SimplifyReport simplify(Mesh& mesh, const SimplifyOptions& options, const Contex
         report.remesh = make_delaunay(mesh, options.remesh, context);
         if (report.remesh->stop != StopReason::done) {
             report.stop = is_cancelled(context) ? SimplifyStop::cancelled : SimplifyStop::not_delaunay;
+            if (record != nullptr) *record = {mesh, {}};
             return report;
         }
     }
-    Decimator decimator(mesh, tuning_for(options),
-                        {options.max_quadric_error_rel * diagonal, options.remesh.precision});
+    Decimator decimator(mesh, tuning_for(options), {options.max_quadric_error_rel * diagonal, options.remesh.precision},
+                        record != nullptr ? &recorder : nullptr);
     std::optional<Refitter> refitter;
     if (options.refit && options.max_quadric_error_rel == 0 && options.placement == Placement::best)
         refitter.emplace(mesh, report.input_vertices, decimator.scale());
@@ -150,7 +155,7 @@ SimplifyReport simplify(Mesh& mesh, const SimplifyOptions& options, const Contex
         if (refitter) report.moves += refit_on_the_way(decimator, *refitter, report.input_vertices, target, context);
         decimator.run(target, context);
         report.levels.push_back(describe_level(decimator, target, context));
-        if (refitter) report.moves += decimator.refit(*refitter, {}, context);
+        if (refitter && decimator.counts().collapses > 0) report.moves += decimator.refit(*refitter, {}, context);
         report.stop = report.levels.back().stop;
         const bool last = target == targets.back() || report.stop == SimplifyStop::cancelled;
         if (last) break;
@@ -158,10 +163,21 @@ SimplifyReport simplify(Mesh& mesh, const SimplifyOptions& options, const Contex
     }
     report.collapses = decimator.counts().collapses;
     drop_isolated(mesh);
-    compact(mesh);
+    CompactMap map = compact(mesh);
+    if (record != nullptr) *record = {mesh, recorder.steps(std::move(map.vertex), mesh.vertex_count())};
     if (options.on_level) options.on_level(mesh, report.levels.back());
     report_progress(context, "simplify", 1);
     return report;
+}
+
+}  // namespace
+
+SimplifyReport simplify(Mesh& mesh, const SimplifyOptions& options, const Context* context) {
+    return run(mesh, options, nullptr, context);
+}
+
+SimplifyReport simplify(Mesh& mesh, const SimplifyOptions& options, ProgressiveMesh& record, const Context* context) {
+    return run(mesh, options, &record, context);
 }
 
 }  // namespace delmesh

@@ -39,6 +39,16 @@ VertexId split_edge(Mesh& mesh, HalfedgeId h, const Vec3& point);
 /// ids until `compact`, but `is_live` is false for them. Requires `can_collapse`. Cost: O(valence of the target).
 void collapse(Mesh& mesh, HalfedgeId h, const Vec3& point);
 
+/// True if `split_vertex` is allowed: left (and right, unless it is not valid) are neighbours of v, distinct, and both
+/// ends keep a fan of faces. Without `right`, v must be a boundary vertex. Cost: O(valence of v).
+[[nodiscard]] bool can_split_vertex(const Mesh& mesh, VertexId v, VertexId left, VertexId right);
+
+/// The inverse of `collapse`: a new vertex n appears at `point`, joined to v, left and right; the faces at v from right
+/// counter-clockwise to left become n's. New faces: (v, n, left) and, if right is valid, (n, v, right). Without `right`
+/// the edge v->n is on the boundary. Returns n; its id is the old vertex count. Requires `can_split_vertex`. Throws
+/// `Error` (too_large) past 2^32 - 2 half-edges. Cost: O(valence of v).
+VertexId split_vertex(Mesh& mesh, VertexId v, VertexId left, VertexId right, const Vec3& point);
+
 /// Takes away a vertex that has no face: like what `collapse` takes away, it keeps its id until `compact`. O(1).
 void remove_isolated(Mesh& mesh, VertexId v);
 
