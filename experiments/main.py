@@ -3,6 +3,7 @@
 import argparse
 import importlib
 import shutil
+import sys
 
 import command
 
@@ -37,7 +38,10 @@ def main():
             parser.error(f"there is no experiment {name}")
     for name in arguments.names or EXPERIMENTS:
         print(f"== {name}: {EXPERIMENTS[name]}", flush=True)
-        importlib.import_module(name).run()
+        try:
+            importlib.import_module(name).run()
+        except command.CommandFailed as failure:
+            sys.exit(f"experiments/run: {failure}")
     if arguments.publish:
         publish()
 
