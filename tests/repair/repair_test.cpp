@@ -169,10 +169,10 @@ TEST(Repair, ReportReadsWell) {
 TEST(Repair, DescribesItsOptions) {
     RepairOptions options;
     int described = 0;
-    RepairOptions::describe(options, [&](double& field, std::string_view, std::string_view, double lowest,
-                                         double highest, std::string_view) {
-        EXPECT_LE(lowest, field);
-        EXPECT_LE(field, highest);
+    RepairOptions::describe(options, [&](double& field, const OptionInfo& info) {
+        EXPECT_LE(info.lowest, field);
+        EXPECT_LE(field, info.highest);
+        EXPECT_FALSE(info.name.empty() || info.help.empty());
         ++described;
     });
     EXPECT_EQ(described, 1);
