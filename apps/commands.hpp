@@ -17,6 +17,7 @@ struct Action {
 };
 
 void add_check_command(CLI::App& app, Action& action);
+void add_lod_command(CLI::App& app, Action& action);
 void add_remesh_command(CLI::App& app, Action& action);
 void add_repair_command(CLI::App& app, Action& action);
 void add_sample_command(CLI::App& app, Action& action);

@@ -2,8 +2,10 @@
 
 #include "commands.hpp"
 #include "delmesh/base/error.hpp"
+#include "delmesh/io/lod_file.hpp"
 #include "delmesh/io/write.hpp"
 #include "delmesh/mesh/rounding.hpp"
+#include "delmesh/simplify/progressive_mesh.hpp"
 #include "delmesh/simplify/simplify.hpp"
 #include "exit_code.hpp"
 #include "input.hpp"
@@ -26,6 +28,7 @@ struct SimplifyArguments {
     SimplifyOptions options;
     std::string mode = "feature";
     bool keep_partial = false;
+    std::string lod;
 };
 
 /// What is known of a level once it is reached.
@@ -159,9 +162,12 @@ int run_simplify(SimplifyArguments& arguments, Console& console) {
         }
         outcome.levels.push_back(std::move(level));
     };
-    outcome.report = simplify(mesh, arguments.options, console.context());
+    ProgressiveMesh record;
+    outcome.report = arguments.lod.empty() ? simplify(mesh, arguments.options, console.context())
+                                           : simplify(mesh, arguments.options, record, console.context());
     outcome.watch.lap("simplify");
     if (outcome.report.stop == SimplifyStop::cancelled) return console.interrupted();
+    if (!arguments.lod.empty()) write_lod(arguments.lod, record);
     if (console.wants_json()) console.print(run_to_json(arguments, outcome));
     tell_people(outcome, console);
 
@@ -204,6 +210,8 @@ void add_simplify_command(CLI::App& app, Action& action) {
         ->capture_default_str()
         ->check(CLI::Range(0.0, 180.0));
     arguments->output.bind(*command);
+    command->add_option("--lod", arguments->lod, "Write all levels as one progressive mesh, see `delmesh lod`")
+        ->type_name("FILE");
     command->add_flag("--keep-partial", arguments->keep_partial, "Write levels that stopped short, too");
     command->callback([&action, arguments] {
         action.run = [arguments](Console& console) { return run_simplify(*arguments, console); };
