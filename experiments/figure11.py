@@ -37,28 +37,39 @@ def growth(source, name):
     return rows
 
 
-def run():
-    sources = [("noisy-surface", command.sample("noisy-surface", 20000)),
-               ("terrain", command.sample("terrain", 20000))]
+def sources():
     isis = command.PAPER_MESHES / "made-standin-isis-e562926.ply"
     if isis.exists():
-        sources.insert(0, ("Isis stand-in", isis))
-    figure, axes = pyplot.subplots(1, len(sources), figsize=(4.4 * len(sources), 3.4), dpi=100, squeeze=False)
-    table = []
-    for axis, (name, source) in zip(axes[0], sources):
-        stem = name.replace(" ", "-").lower()
-        for label, path in ((name, source), (f"{name}, {COARSE_VERTICES} vertices", coarse_version(source, stem))):
-            rows = growth(path, stem)
-            table += [(label, *row) for row in rows]
-            axis.plot([r[0] for r in rows], [r[3] for r in rows], marker="o", markersize=3,
-                      label=f"{rows[0][1]:,} vertices")
-        axis.set(title=name, xlabel="threshold of the dihedral angle, degrees", ylabel="vertices added, %",
-                 xlim=(0, 90))
+        yield "Isis stand-in", isis
+    for name in ("noisy-surface", "terrain"):
+        yield name, command.sample(name, 20000)
+
+
+def plot(table):
+    """`table`: rows (name, vertices before, threshold, vertices after, growth in percent)."""
+    names = list(dict.fromkeys(row[0] for row in table))
+    figure, axes = pyplot.subplots(1, len(names), figsize=(4.4 * len(names), 3.2), dpi=100, squeeze=False)
+    for axis, name in zip(axes[0], names):
+        for vertices in dict.fromkeys(row[1] for row in table if row[0] == name):
+            rows = [row for row in table if row[:2] == (name, vertices)]
+            axis.plot([r[2] for r in rows], [r[4] for r in rows], marker="o", markersize=3,
+                      label=f"{vertices:,} vertices")
         axis.set_yscale("symlog", linthresh=0.1)
+        axis.set(title=name, xlabel="threshold of the dihedral angle, degrees", ylabel="vertices added, %", xlim=(0, 90),
+                 ylim=(0, 300), yticks=[0, 0.1, 1, 10, 100], yticklabels=["0", "0.1", "1", "10", "100"])
         axis.grid(alpha=0.3)
-        axis.legend(fontsize=8)
+        axis.legend(fontsize=8, loc="upper right")
     figure.tight_layout()
     render.save(figure, command.OUT / "figure11.png")
-    command.save_csv("figure11.csv", ["mesh", "threshold_deg", "vertices_before", "vertices_after", "growth_percent"],
-                     table)
     print("wrote experiments/out/figure11.png")
+
+
+def run():
+    table = []
+    for name, source in sources():
+        stem = name.replace(" ", "-").lower()
+        for path in (source, coarse_version(source, stem)):
+            table += [(name, before, angle, after, percent) for angle, before, after, percent in growth(path, stem)]
+    command.save_csv("figure11.csv", ["mesh", "vertices_before", "threshold_deg", "vertices_after", "growth_percent"],
+                     table)
+    plot(table)
