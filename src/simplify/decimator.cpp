@@ -10,7 +10,7 @@
 namespace delmesh {
 namespace {
 
-/// How far a place that was found earlier may have become dearer and still be taken.
+/// An edge is not queued again for a cost that has grown by less than this part.
 constexpr double cost_tolerance = 1e-3;
 /// Collapses between two looks at the context.
 constexpr std::size_t report_interval = 1024;
@@ -52,7 +52,8 @@ Decimator::Decimator(Mesh& mesh, const Tuning& tuning, const DecimatorLimits& li
       weights_(mesh, scale_, tuning_),
       vertices_(count_used(mesh)),
       blocked_(mesh.halfedge_count()),
-      known_(mesh.halfedge_count()) {
+      stamp_(mesh.halfedge_count()),
+      watches_(mesh.vertex_count()) {
     merged_into_.resize(mesh.vertex_count());
     for (std::size_t v = 0; v < merged_into_.size(); ++v) merged_into_[v] = VertexId(v);
     enqueue_all();
@@ -62,7 +63,7 @@ void Decimator::enqueue_all() {
     queue_.reset(mesh_.halfedge_count());
     for (std::size_t i = 0; i < mesh_.halfedge_count(); ++i) {
         const HalfedgeId h(i);
-        forget(h);
+        blocked_.remove(h);
         if (mesh_.origin(h).valid() && mesh_.names_edge(h)) queue_.append(key_of(h), h.value());
     }
     queue_.heapify();
@@ -86,8 +87,7 @@ EdgeCost Decimator::cost_of(HalfedgeId h) const {
     const VertexId v = mesh_.target(h);
     const Vec3 to_v = (mesh_.point(v) - mesh_.point(u)) * scale_;
     EdgeCost cost;
-    cost.steered = weights_.current(v).moved_to(-to_v);
-    cost.steered += weights_.current(u);
+    cost.steered = weights_.of_edge(u, v, to_v);
     cost.middle = to_v * 0.5;
     cost.trace = cost.steered.trace();
     cost.steered.add_point(cost.middle, tuning_.regular * cost.trace);
@@ -115,32 +115,32 @@ void Decimator::add_volume(EdgeCost& cost) const {
 }
 
 void Decimator::enqueue(HalfedgeId h) {
-    forget(h);
-    queue_.set(key_of(h), h.value());
-}
-
-void Decimator::forget(HalfedgeId h) {
     blocked_.remove(h);
-    known_.remove(h);
+    queue_.set(key_of(h), h.value());
 }
 
 void Decimator::block(HalfedgeId h, Blocker why) {
     ++counts_.blocked[static_cast<std::size_t>(why)];
-    Witness witness{why, {}};
+    blocked_.set(h, why);
+    const std::uint32_t stamp = ++stamp_[h.index()];
+    const auto watch = [&](VertexId v) {
+        if (v.valid()) watches_.add(v, {h, stamp});
+    };
     if (why == Blocker::fold || why == Blocker::subtending || why == Blocker::incident) {
+        // Only the vertices of the condition that failed.
         const std::size_t i = placer_.witness();
         const std::size_t j = star_.after(i);
-        witness.vertices = {star_.ring[i].vertex, star_.ring[j].vertex, star_.ring[star_.after(j)].vertex,
-                            star_.ring[i].outer};
+        watch(star_.ring[i].vertex), watch(star_.ring[j].vertex), watch(star_.ring[star_.after(j)].vertex);
+        watch(star_.ring[i].outer);
+    } else {
+        for (const Star::Corner& corner : star_.ring) watch(corner.vertex);
     }
-    known_.remove(h);
-    blocked_.set(h, witness);
 }
 
 std::array<std::size_t, blocker_count> Decimator::count_blocked() const {
     std::array<std::size_t, blocker_count> counts{};
     for (std::size_t i = 0; i < mesh_.halfedge_count(); ++i)
-        if (const Witness* witness = blocked_.find(HalfedgeId(i))) ++counts[static_cast<std::size_t>(witness->why)];
+        if (const Blocker* why = blocked_.find(HalfedgeId(i))) ++counts[static_cast<std::size_t>(*why)];
     return counts;
 }
 
@@ -154,24 +154,6 @@ void Decimator::run(std::size_t vertices, const Context* context) {
         }
         process(queue_.pop());
     }
-}
-
-std::optional<Place> Decimator::find_place(HalfedgeId h, const EdgeCost& cost) {
-    const Known* known = known_.find(h);
-    if (known != nullptr && known->version == version_of_star()) {
-        ++counts_.reused;
-        const Vec3 w = star_.frame.to_local(known->point);
-        return Place{w, cost.steered(w)};
-    }
-    known_.remove(h);
-    return tuning_.paper ? placer_.paper(star_, cost) : placer_.best(star_, cost);
-}
-
-/// Changes whenever a place that was found may no longer be the best.
-std::uint32_t Decimator::version_of_star() const {
-    std::uint32_t sum = 0;
-    for (const Star::Corner& corner : star_.ring) sum += weights_.version(corner.vertex);
-    return sum;
 }
 
 /// The place as it will be stored.
@@ -192,15 +174,15 @@ void Decimator::process(const Queue::Entry& entry) {
     if (!gather(mesh_, h, scale_, star_)) return block(h, Blocker::topology);
     EdgeCost cost = cost_of(h);
     if (tuning_.volume > 0) add_volume(cost);
-    const auto place = find_place(h, cost);
+    const auto place = tuning_.paper ? placer_.paper(star_, cost) : placer_.best(star_, cost);
     if (!place) return block(h, placer_.blocker());
-    const Vec3 w = settled(star_.frame.to_mesh(place->point));
-    if (!queue_.empty() && place->cost > entry.key * (1 + cost_tolerance) && place->cost > queue_.top().key) {
+    if (!queue_.empty() && place->cost > tuning_.slack * queue_.top().key &&
+        place->cost > entry.key * (1 + cost_tolerance)) {
         ++counts_.requeued;
         queue_.set(place->cost, h.value());
-        known_.set(h, {w, version_of_star()});
         return;
     }
+    const Vec3 w = settled(star_.frame.to_mesh(place->point));
     if (tuning_.constrained && !keeps_delaunay(mesh_, star_, w)) return block(h, Blocker::rounding);
     const Vec3 local = star_.frame.to_local(w);
     Quadric merged = weights_.history(star_.u).moved_to(local);
@@ -215,10 +197,9 @@ void Decimator::accept(HalfedgeId h, const Vec3& w, const Quadric& merged) {
     const auto drop = [&](HalfedgeId at) {
         const HalfedgeId e = Mesh::halfedge(mesh_.edge(at));
         queue_.remove(e.value());
-        forget(e);
+        blocked_.remove(e);
     };
     const HalfedgeId t = mesh_.twin(h);
-    forget(h);
     drop(Mesh::next(h)), drop(Mesh::prev(h));
     if (t.valid()) drop(Mesh::next(t)), drop(Mesh::prev(t));
     if (recorder_ != nullptr)
@@ -232,28 +213,19 @@ void Decimator::accept(HalfedgeId h, const Vec3& w, const Quadric& merged) {
     weights_.refresh(kept);
     for (const Star::Corner& corner : star_.ring) weights_.refresh(corner.vertex);
     each_edge(mesh_, kept, [&](HalfedgeId e) { enqueue(e); });
-    for (const Star::Corner& corner : star_.ring) {
-        wake_around(corner.vertex, kept, gone);
-        if (corner.outer.valid()) wake_around(corner.outer, kept, gone);
-    }
+    wake(kept);
+    wake(gone);
 }
 
-/// Blocked edges at v go back into the queue if what blocked them has changed.
-void Decimator::wake_around(VertexId v, VertexId kept, VertexId gone) {
-    const auto is_touched = [&](const Witness& witness) {
-        bool known = false;
-        for (const VertexId x : witness.vertices) {
-            if (x == kept || x == gone) return true;
-            known = known || x.valid();
-        }
-        return !known;
-    };
-    each_edge(mesh_, v, [&](HalfedgeId e) {
-        const Witness* witness = blocked_.find(e);
-        if (witness == nullptr || !is_touched(*witness)) return;
+/// What was blocked by a condition on v goes back into the queue.
+void Decimator::wake(VertexId v) {
+    woken_.clear();
+    watches_.take(v, woken_);
+    for (const Watch& watch : woken_) {
+        if (blocked_.find(watch.edge) == nullptr || stamp_[watch.edge.index()] != watch.stamp) continue;
         ++counts_.woken;
-        enqueue(e);
-    });
+        enqueue(watch.edge);
+    }
 }
 
 }  // namespace delmesh

@@ -10,6 +10,7 @@
 #include "simplify/slots.hpp"
 #include "simplify/star.hpp"
 #include "simplify/tuning.hpp"
+#include "simplify/watchlists.hpp"
 #include "simplify/weights.hpp"
 
 #include <array>
@@ -24,7 +25,7 @@ struct DecimatorLimits {
 };
 
 struct DecimatorCounts {
-    std::size_t collapses = 0, popped = 0, requeued = 0, woken = 0, reused = 0;
+    std::size_t collapses = 0, popped = 0, requeued = 0, woken = 0;
     std::array<std::size_t, blocker_count> blocked{};
 };
 
@@ -49,31 +50,22 @@ public:
     [[nodiscard]] const Placer& placer() const { return placer_; }
 
 private:
-    struct Witness {
-        Blocker why = Blocker::none;
-        /// The vertices of the condition that failed; none valid: any change nearby may help.
-        std::array<VertexId, 4> vertices;
+    /// An edge that waits for a vertex to change; outdated if its stamp is.
+    struct Watch {
+        HalfedgeId edge;
+        std::uint32_t stamp = 0;
     };
-
-    struct Known {
-        Vec3 point;
-        std::uint32_t version = 0;
-    };
-
     [[nodiscard]] EdgeCost cost_of(HalfedgeId h) const;
     [[nodiscard]] double key_of(HalfedgeId h) const;
     void add_volume(EdgeCost& cost) const;
     void enqueue_all();
     void enqueue(HalfedgeId h);
-    void forget(HalfedgeId h);
     void block(HalfedgeId h, Blocker why);
     void process(const Queue::Entry& entry);
-    [[nodiscard]] std::optional<Place> find_place(HalfedgeId h, const EdgeCost& cost);
-    [[nodiscard]] std::uint32_t version_of_star() const;
     [[nodiscard]] Vec3 settled(const Vec3& w) const;
     [[nodiscard]] bool exceeds_error(const Quadric& merged);
     void accept(HalfedgeId h, const Vec3& w, const Quadric& merged);
-    void wake_around(VertexId v, VertexId kept, VertexId gone);
+    void wake(VertexId v);
 
     Mesh& mesh_;
     const Tuning tuning_;
@@ -85,9 +77,10 @@ private:
     std::size_t vertices_ = 0;
     double worst_error_ = 0;
     std::vector<VertexId> merged_into_;
-    Slots<Witness> blocked_;
-    /// Places found for edges that went back into the queue because others were cheaper.
-    Slots<Known> known_;
+    Slots<Blocker> blocked_;
+    std::vector<std::uint32_t> stamp_;  ///< per half-edge: how often it was blocked
+    Watchlists<Watch> watches_;
+    std::vector<Watch> woken_;
     Queue queue_;
     Star star_;
     DecimatorCounts counts_;

@@ -33,7 +33,7 @@ Refitter::Refitter(const Mesh& mesh, std::size_t count, double scale) : scale_(s
 
 /// Every k-th point, standing for the area of k.
 void Refitter::choose(std::size_t most) {
-    const std::size_t stride = most == 0 ? 1 : std::max<std::size_t>(1, (points_.size() + most - 1) / most);
+    const std::size_t stride = std::max<std::size_t>(1, (points_.size() + most - 1) / most);
     samples_.clear();
     for (std::size_t i = 0; i < points_.size(); i += stride) {
         Sample sample;
@@ -165,7 +165,7 @@ bool Refitter::refit_vertex(Mesh& mesh, VertexId v, Placer& placer, const RefitT
     EdgeCost cost;
     if (!build_cost(mesh, v, tuning, cost)) return false;
     const auto place = placer.improve(star_, cost, Vec3{});
-    if (!place) return false;
+    if (!place || place->cost > (1 - tuning.least_gain) * cost.steered({})) return false;
     const Vec3 w = settle(star_.frame.to_mesh(place->point));
     if (w == mesh.point(v) || !keeps_delaunay(mesh, star_, w)) return false;
     if (!(error_around(star_.frame.to_local(w)) < (1 - tuning.least_gain) * error_around({}))) return false;
@@ -179,7 +179,7 @@ std::size_t Refitter::run(Mesh& mesh, std::span<const VertexId> merged_into, Pla
                           const std::function<void(VertexId, const Vec3&)>& moved, const Context* context) {
     std::size_t live = 0;
     for (std::size_t v = 0; v < mesh.vertex_count(); ++v) live += mesh.halfedge(VertexId(v)).valid() ? 1 : 0;
-    choose(static_cast<std::size_t>(tuning.density * static_cast<double>(live)));
+    choose(static_cast<std::size_t>(tuning.samples + tuning.density * static_cast<double>(live)));
     for (Sample& s : samples_)
         while (merged_into[s.near.index()] != s.near) s.near = merged_into[s.near.index()];
     std::size_t moves = 0;

@@ -16,7 +16,8 @@ namespace delmesh {
 struct RefitTuning {
     int rounds = 3;
     double regular = 1e-3;     ///< pull to the place before, relative to the trace
-    double density = 24;       ///< at most so many samples for each vertex; 0: all
+    double density = 12;       ///< so many samples for each vertex ...
+    double samples = 30000;    ///< ... and so many more are used, as far as there are
     double least_gain = 0.01;  ///< a move must lower the error by this part
 };
 

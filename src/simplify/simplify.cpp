@@ -107,7 +107,7 @@ std::size_t refit_on_the_way(Decimator& decimator, Refitter& refitter, std::size
     for (std::size_t stop = input_vertices / 4; stop > target + target / 2 && !is_cancelled(context); stop /= 2) {
         if (stop >= decimator.vertices()) continue;
         decimator.run(stop, context);
-        moves += decimator.refit(refitter, {}, context);
+        moves += decimator.refit(refitter, {.rounds = 1}, context);
     }
     return moves;
 }

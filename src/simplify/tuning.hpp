@@ -4,8 +4,6 @@ namespace delmesh {
 
 /// The weights and limits of the decimator, found by measurement (docs/simplify.md).
 struct Tuning {
-    double current = 1;         ///< weight of the planes of the current faces; 0 or 1
-    double history = 0;         ///< weight of the planes that a vertex inherits from all that was merged into it
     int area_power = 2;         ///< a plane counts with this power of its face's area: 1 or 2
     double boundary = 10;       ///< weight of planes upright on boundary and crease edges
     double crease_cosine = -1;  ///< edges whose faces' normals have a smaller cosine are creases
@@ -14,14 +12,13 @@ struct Tuning {
     double length_cost = 1e-9;  ///< breaks ties of flat regions in favour of short edges
     int bisections = 4;
     int sqp_steps = 1;
-    bool paper = false;       ///< the paper's placement
+    double slack = 1.5;       ///< an edge is collapsed at once if it costs at most this times the next key
+    bool paper = false;       ///< the paper's placement, with quadrics that add up (else those of the current faces)
     bool constrained = true;  ///< false: for comparison only; the result is not Delaunay
 
     /// Section 5 of the paper: the quadrics of Garland and Heckbert, and nothing else.
     static Tuning of_the_paper(double crease_cosine) {
         Tuning tuning;
-        tuning.current = 0;
-        tuning.history = 1;
         tuning.area_power = 1;
         tuning.crease_cosine = crease_cosine;
         tuning.volume = 0;

@@ -16,14 +16,15 @@ public:
     void add_face(const Vec3& normal) {
         const double n2 = squared_norm(normal);
         // Weight area^2 for power 2, area for power 1; the normal is twice the area long.
-        if (n2 > 0) out_.add_plane(normal, 0, tuning_.area_power == 2 ? 0.25 : 0.5 / std::sqrt(n2));
+        if (n2 > 0) out_.add_plane_through_origin(normal, tuning_.area_power == 2 ? 0.25 : 0.5 / std::sqrt(n2));
     }
     /// A plane through the edge, upright on a face.
     void add_upright(const Vec3& along, const Vec3& face_normal, double weight) {
         const Vec3 n = cross(along, face_normal);
         const double n2 = squared_norm(n);
         const double length2 = squared_norm(along);
-        if (n2 > 0) out_.add_plane(n, 0, weight * (tuning_.area_power == 2 ? length2 * length2 : length2) / n2);
+        if (n2 > 0)
+            out_.add_plane_through_origin(n, weight * (tuning_.area_power == 2 ? length2 * length2 : length2) / n2);
     }
 
 private:
@@ -38,20 +39,33 @@ VertexWeights::VertexWeights(const Mesh& mesh, double scale, const Tuning& tunin
       scale_(scale),
       tuning_(tuning),
       history_(mesh.vertex_count()),
-      current_(mesh.vertex_count()),
-      version_(mesh.vertex_count()) {
+      current_(mesh.vertex_count()) {
     for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
-        history_[i] = planes_at(VertexId(i));
-        refresh(VertexId(i));
+        const Quadric q = history_[i] = planes_at(VertexId(i));
+        current_[i] = {q.xx, q.xy, q.xz, q.yy, q.yz, q.zz};
     }
 }
 
 void VertexWeights::refresh(VertexId v) {
-    Quadric q = history_[v.index()];
-    q *= tuning_.history;
-    if (tuning_.current > 0) q += planes_at(v);
-    current_[v.index()] = q;
-    ++version_[v.index()];
+    if (tuning_.paper) return;
+    const Quadric q = planes_at(v);
+    current_[v.index()] = {q.xx, q.xy, q.xz, q.yy, q.yz, q.zz};
+}
+
+Quadric VertexWeights::of_edge(VertexId u, VertexId v, const Vec3& to_v) const {
+    if (tuning_.paper) {
+        Quadric q = history_[v.index()].moved_to(-to_v);
+        q += history_[u.index()];
+        return q;
+    }
+    const Planes& at_u = current_[u.index()];
+    const Planes& at_v = current_[v.index()];
+    Quadric q;
+    q.xx = at_v.xx, q.xy = at_v.xy, q.xz = at_v.xz, q.yy = at_v.yy, q.yz = at_v.yz, q.zz = at_v.zz;
+    q.b = -q.apply(to_v);
+    q.c = -dot(to_v, q.b);
+    q.xx += at_u.xx, q.xy += at_u.xy, q.xz += at_u.xz, q.yy += at_u.yy, q.yz += at_u.yz, q.zz += at_u.zz;
+    return q;
 }
 
 Quadric VertexWeights::planes_at(VertexId v) const {

@@ -5,7 +5,6 @@
 #include "delmesh/simplify/quadric.hpp"
 #include "simplify/tuning.hpp"
 
-#include <cstdint>
 #include <vector>
 
 namespace delmesh {
@@ -15,28 +14,28 @@ class VertexWeights {
 public:
     VertexWeights(const Mesh& mesh, double scale, const Tuning& tuning);
 
-    /// Planes of the current faces, with a share of the history.
-    [[nodiscard]] const Quadric& current(VertexId v) const { return current_[v.index()]; }
+    /// The planes to judge an edge by: those at its ends, with the place of u as the origin; `to_v` is that of v.
+    [[nodiscard]] Quadric of_edge(VertexId u, VertexId v, const Vec3& to_v) const;
     /// Planes of the original faces that v stands for.
     [[nodiscard]] const Quadric& history(VertexId v) const { return history_[v.index()]; }
 
-    /// How often `current(v)` was computed.
-    [[nodiscard]] std::uint32_t version(VertexId v) const { return version_[v.index()]; }
-
     /// v stands for the planes of `merged` from now on.
     void set_history(VertexId v, const Quadric& merged) { history_[v.index()] = merged; }
-    /// Computes `current(v)` anew from the faces at v.
+    /// To be called when the faces at v have changed.
     void refresh(VertexId v);
 
 private:
+    /// A of a quadric whose b and c are zero: all planes go through the vertex.
+    struct Planes {
+        double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+    };
     [[nodiscard]] Quadric planes_at(VertexId v) const;
 
     const Mesh& mesh_;
     double scale_;
     const Tuning& tuning_;
     std::vector<Quadric> history_;
-    std::vector<Quadric> current_;
-    std::vector<std::uint32_t> version_;
+    std::vector<Planes> current_;
 };
 
 }  // namespace delmesh

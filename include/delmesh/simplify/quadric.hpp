@@ -25,6 +25,16 @@ struct Quadric {
         b = b - n * offset;
         c += weight * offset * offset;
     }
+    /// weight * (normal.x)^2.
+    void add_plane_through_origin(const Vec3& normal, double weight) {
+        const Vec3 n = normal * weight;
+        xx += n.x * normal.x;
+        xy += n.x * normal.y;
+        xz += n.x * normal.z;
+        yy += n.y * normal.y;
+        yz += n.y * normal.z;
+        zz += n.z * normal.z;
+    }
     /// weight * |x - point|^2.
     void add_point(const Vec3& point, double weight) {
         xx += weight;
