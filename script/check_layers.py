@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Checks the shape of the tree: arrows between layers, one stem for header and test, sizes, the README's program.
+"""Checks the shape of the tree: arrows between layers, one stem for header and test, sizes, the links of the
+pages, the README's program.
 
     script/check_layers.py [ROOT]       exit 1 and one line per violation
     script/check_layers.py --self-test  shows that each rule fires
@@ -29,6 +30,7 @@ MAX_PUBLIC_HEADER_LINES = 200
 MAX_SOURCE_LINES = 600
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
+LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
 LEFT_OPEN = re.compile(r"\b(TODO|FIXME|XXX|HACK)\b")
 
 
@@ -97,16 +99,26 @@ def check_readme(root):
         yield "README.md: its program is not examples/remesh_file.cpp, word for word"
 
 
+def check_links(root, pages):
+    """Every relative link of a page leads to a file."""
+    for page in pages:
+        for target in LINK.findall((root / page).read_text(encoding="utf-8")):
+            if not target.startswith(("http:", "https:", "mailto:")) and not (root / page.parent / target).exists():
+                yield f"{page}: links to {target}, which is not there"
+
+
 def check(root, paths):
-    for path in paths:
+    sources = [path for path in paths if path.suffix != ".md"]
+    for path in sources:
         yield from check_file(path, (root / path).read_text(encoding="utf-8"))
-    yield from check_stems(paths)
+    yield from check_stems(sources)
+    yield from check_links(root, [path for path in paths if path.suffix == ".md"])
     yield from check_readme(root)
 
 
-def source_files(root):
-    listed = subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard", "*.hpp", "*.cpp"], cwd=root,
-                            check=True, capture_output=True, text=True).stdout.split("\n")
+def tracked_files(root):
+    listed = subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard", "*.hpp", "*.cpp", "*.md"],
+                            cwd=root, check=True, capture_output=True, text=True).stdout.split("\n")
     return [pathlib.Path(name) for name in listed if name and (root / name).exists()]
 
 
@@ -128,6 +140,7 @@ def self_test():
         ("left in the code", {"src/mesh/x.cpp": "// " + "TO" + "DO: later\n"}),
         ("no tests/mesh/c_test.cpp", {"include/delmesh/mesh/c.hpp": once}),
         ("still stands in UNTESTED", {"tests/exact/sign_test.cpp": ""}),
+        ("links to gone.md", {"docs/a.md": "[here](a.md#part), [there](gone.md) and [far](https://example.org)\n"}),
         ("word for word", {"README.md": "```cpp\nint main() {}\n```\n", "examples/remesh_file.cpp": "int main();\n"}),
         ("which is not there", {"include/delmesh/exact/sign.hpp": None}),
     ]
@@ -154,12 +167,12 @@ def main(arguments):
         self_test()
         return 0
     root = pathlib.Path(arguments[0] if arguments else pathlib.Path(__file__).resolve().parent.parent)
-    paths = source_files(root)
+    paths = tracked_files(root)
     if not paths:
         print("no sources found", file=sys.stderr)
         return 1
     found = list(check(root, paths))
-    print("\n".join(found) if found else f"{len(paths)} files: layers, stems and sizes are as they should be")
+    print("\n".join(found) if found else f"{len(paths)} files: layers, stems, sizes and links are as they should be")
     return 1 if found else 0
 
 
