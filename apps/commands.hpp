@@ -20,6 +20,7 @@ void add_check_command(CLI::App& app, Action& action);
 void add_lod_command(CLI::App& app, Action& action);
 void add_remesh_command(CLI::App& app, Action& action);
 void add_repair_command(CLI::App& app, Action& action);
+void add_distance_command(CLI::App& app, Action& action);
 void add_sample_command(CLI::App& app, Action& action);
 void add_simplify_command(CLI::App& app, Action& action);
 void add_stats_command(CLI::App& app, Action& action);

@@ -62,6 +62,7 @@ int main(int argc, char** argv) {
     add_check_command(app, action);
     add_stats_command(app, action);
     add_lod_command(app, action);
+    add_distance_command(app, action);
     add_repair_command(app, action);
     add_sample_command(app, action);
     try {

@@ -1,7 +1,9 @@
 // What it costs to certify and to measure, per edge or face, on one core.
 
 #include "delmesh/measure/certificate.hpp"
+#include "delmesh/measure/distance.hpp"
 #include "delmesh/measure/statistics.hpp"
+#include "measure/face_tree.hpp"
 #include "measure/meshes.hpp"
 
 #include <benchmark/benchmark.h>
@@ -74,6 +76,29 @@ void bench_size(benchmark::State& state) {
     name_rates(state, "per_face", static_cast<double>(mesh.face_count()));
 }
 
+/// Two noisy tori of so many faces each; `samples` inside the faces, each way, and as many as there
+/// are on vertices and edges; search trees included.
+void bench_distance(benchmark::State& state) {
+    const auto n = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(state.range(0)) / 2));
+    const PolygonSoup a = testing::torus_soup(n, n, 0.2 / n, 1), b = testing::torus_soup(n, n, 0.2 / n, 2);
+    DistanceOptions options;
+    options.samples_per_face = 1e-3;
+    options.min_samples = static_cast<std::size_t>(state.range(1));
+    options.bound_rel = state.range(2) == 0 ? 0 : 1e-6;
+    DistanceReport r;
+    for (auto _ : state) benchmark::DoNotOptimize(r = measure_distance(a, b, options, &one_thread));
+    name_rates(state, "per_sample", static_cast<double>(r.samples));
+    state.counters["samples"] = static_cast<double>(r.samples);
+    state.counters["pieces"] = r.enclosure ? static_cast<double>(r.enclosure->pieces) : 0;
+}
+
+void bench_tree(benchmark::State& state) {
+    const auto n = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(state.range(0)) / 2));
+    const PolygonSoup a = testing::torus_soup(n, n, 0.2 / n, 1);
+    for (auto _ : state) benchmark::DoNotOptimize(measure::FaceTree(a.points, a.corners, &one_thread));
+    name_rates(state, "per_face", static_cast<double>(a.face_count()));
+}
+
 /// 0 noisy torus, 1 the same shuffled, 2 integer grid, 3 the same turned, 4 turned grid of step 0.1 (co-circular but
 /// for rounding).
 void kinds(benchmark::internal::Benchmark* b) {
@@ -83,6 +108,11 @@ void kinds(benchmark::internal::Benchmark* b) {
 BENCHMARK(bench_certify)->Apply(kinds);
 BENCHMARK(bench_angles)->Apply(kinds);
 BENCHMARK(bench_size)->Apply(kinds);
+BENCHMARK(bench_tree)->Arg(10'000)->Arg(1'000'000)->Unit(benchmark::kMillisecond);
+BENCHMARK(bench_distance)
+    ->ArgNames({"faces", "samples", "bound"})
+    ->ArgsProduct({{10'000, 1'000'000}, {1'000'000}, {0, 1}})
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace delmesh

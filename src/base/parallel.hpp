@@ -14,6 +14,16 @@
 
 namespace delmesh {
 
+/// Calls body() so that what it runs in parallel uses as many threads as the context allows.
+template <class Body>
+void run_in_arena(const Context* context, Body&& body) {
+    // Without it TBB complains on stderr about more threads than cores.
+    const auto wanted = static_cast<std::size_t>(std::max(thread_count(context), tbb::info::default_concurrency()));
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, wanted);
+    tbb::task_arena arena(thread_count(context) > 0 ? thread_count(context) : tbb::task_arena::automatic);
+    arena.execute(body);
+}
+
 /// Calls body(begin, end) for consecutive blocks of [0, count), each `block` long but the last.
 template <class Body>
 void parallel_blocks(std::size_t count, const Context* context, Body&& body, std::size_t block = 16384) {
@@ -23,11 +33,7 @@ void parallel_blocks(std::size_t count, const Context* context, Body&& body, std
         for (std::size_t i = 0; i < blocks; ++i) run(i);
         return;
     }
-    // Without it TBB complains on stderr about more threads than cores.
-    const auto wanted = static_cast<std::size_t>(std::max(thread_count(context), tbb::info::default_concurrency()));
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, wanted);
-    tbb::task_arena arena(thread_count(context) > 0 ? thread_count(context) : tbb::task_arena::automatic);
-    arena.execute([&] { tbb::parallel_for(std::size_t{0}, blocks, run); });
+    run_in_arena(context, [&] { tbb::parallel_for(std::size_t{0}, blocks, run); });
 }
 
 }  // namespace delmesh
