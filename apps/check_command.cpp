@@ -15,7 +15,7 @@ void add_check_command(CLI::App& app, Action& action) {
                     "delmesh check bunny.ply");
     const auto path = std::make_shared<std::string>();
     const auto input = std::make_shared<InputOptions>();
-    command->add_option("IN", *path, "Mesh file")->required();
+    command->add_option("IN", *path, "Mesh file; -: standard input")->required();
     input->bind(*command);
     command->callback([&action, path, input] {
         action.run = [path, input](Console& console) {

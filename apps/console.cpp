@@ -1,5 +1,6 @@
 #include "console.hpp"
 
+#include "delmesh/io/write.hpp"
 #include "exit_code.hpp"
 
 #include <fmt/format.h>
@@ -8,31 +9,64 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 
 namespace delmesh::app {
 namespace {
 
-std::atomic<Context*> running{nullptr};
+// What the signal handler knows.
+std::atomic<Context*> to_cancel{nullptr};
 std::atomic<int> signal_seen{0};
+std::atomic<bool> line_open{false};
 
-extern "C" void on_signal(int signal) {
-    signal_seen.store(signal, std::memory_order_relaxed);
-    if (Context* context = running.load(std::memory_order_relaxed)) context->cancel();
+constexpr std::string_view erase_line = "\r\033[K";
+
+int exit_code_of_signal(int signal) {
+    return signal == SIGTERM ? exit_terminated : exit_interrupted;
 }
 
-void catch_signals() {
+[[noreturn]] void fail_stdout() {
+    throw OutputLost(std::string("standard output: can not be written: ") + std::strerror(errno));
+}
+
+extern "C" void on_signal(int signal) {
+    Context* const context = to_cancel.load();
+    if (context != nullptr && signal_seen.exchange(signal) == 0) {
+        context->cancel();
+        return;
+    }
+    remove_unfinished_files();
+    if (line_open.load()) {
+        [[maybe_unused]] const ssize_t ignored = ::write(STDERR_FILENO, erase_line.data(), erase_line.size());
+    }
+    ::_exit(exit_code_of_signal(signal));
+}
+
+void catch_signal(int signal) {
     struct sigaction action {};
+    // Who starts a process in the background may have told it to ignore the keyboard.
+    if (sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN) return;
+    action = {};
     action.sa_handler = on_signal;
     sigemptyset(&action.sa_mask);
-    // A second signal ends the process at once.
-    action.sa_flags = static_cast<int>(SA_RESETHAND);
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
+    sigaddset(&action.sa_mask, SIGINT);
+    sigaddset(&action.sa_mask, SIGTERM);
+    action.sa_flags = SA_RESTART;
+    sigaction(signal, &action, nullptr);
 }
 
 }  // namespace
+
+std::string input_path(const std::string& path) {
+    return path == "-" ? "/dev/stdin" : path;
+}
+
+std::string output_path(const std::string& path) {
+    return path == "-" ? "/dev/stdout" : path;
+}
 
 void Stopwatch::lap(const std::string& phase) {
     const Clock::time_point now = Clock::now();
@@ -51,24 +85,25 @@ Console::Console(const CommonOptions& options)
     : options_(options),
       context_([this](std::string_view phase, double fraction) { draw(phase, fraction); }, options.threads),
       terminal_(isatty(STDERR_FILENO) == 1 && !options.quiet) {
-    running.store(&context_);
-    catch_signals();
+    catch_signal(SIGINT);
+    catch_signal(SIGTERM);
+    // A reader that goes away and a limit on the size of files are errors of writing.
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
 }
 
 Console::~Console() {
-    running.store(nullptr);
+    to_cancel.store(nullptr);
     clear_line();
 }
 
+void Console::finish_early() {
+    to_cancel.store(&context_);
+}
+
 int Console::interrupted() const {
-    switch (signal_seen.load()) {
-        case SIGINT:
-            return exit_interrupted;
-        case SIGTERM:
-            return exit_terminated;
-        default:
-            return 0;
-    }
+    const int signal = signal_seen.load();
+    return signal == 0 ? 0 : exit_code_of_signal(signal);
 }
 
 void Console::draw(std::string_view phase, double fraction) {
@@ -76,21 +111,30 @@ void Console::draw(std::string_view phase, double fraction) {
     const auto now = std::chrono::steady_clock::now();
     if (now - drawn_ < std::chrono::milliseconds(100)) return;
     drawn_ = now;
-    line_open_ = true;
-    fmt::print(stderr, "\r\033[K{} {:3.0f} %", phase, 100 * std::clamp(fraction, 0.0, 1.0));
+    line_open.store(true);
+    fmt::print(stderr, "{}{} {:3.0f} %", erase_line, phase, 100 * std::clamp(fraction, 0.0, 1.0));
     std::fflush(stderr);
 }
 
 void Console::clear_line() {
-    if (!line_open_) return;
-    line_open_ = false;
-    fmt::print(stderr, "\r\033[K");
+    if (!line_open.exchange(false)) return;
+    fmt::print(stderr, "{}", erase_line);
     std::fflush(stderr);
 }
 
-void Console::print(const Json& json) {
+void Console::put(std::string_view text) {
     clear_line();
-    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+    FILE* const to = options_.mesh_on_stdout ? stderr : stdout;
+    const bool done = std::fwrite(text.data(), 1, text.size(), to) == text.size() && std::fputc('\n', to) != EOF;
+    if (!done && to == stdout) fail_stdout();
+}
+
+void Console::flush() {
+    if (std::fflush(stdout) != 0) fail_stdout();
+}
+
+void Console::print(const Json& json) {
+    put(json.dump(2, ' ', false, Json::error_handler_t::replace));
 }
 
 void Console::say(std::string_view text) {
@@ -98,9 +142,7 @@ void Console::say(std::string_view text) {
 }
 
 void Console::tell(std::string_view text) {
-    if (options_.json) return;
-    clear_line();
-    fmt::print("{}\n", text);
+    if (!options_.json) put(text);
 }
 
 std::size_t peak_memory_bytes() {

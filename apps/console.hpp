@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <chrono>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,7 +20,13 @@ struct CommonOptions {
     bool json = false;
     bool quiet = false;
     int threads = 0;
+    /// The mesh goes to standard output, so that all words go to standard error.
+    bool mesh_on_stdout = false;
 };
+
+/// "-" as a path.
+[[nodiscard]] std::string input_path(const std::string& path);
+[[nodiscard]] std::string output_path(const std::string& path);
 
 /// Seconds of named phases, in the order in which they ran.
 class Stopwatch {
@@ -35,7 +42,15 @@ private:
     std::vector<std::pair<std::string, double>> laps_;
 };
 
-/// A context that draws progress on a terminal and is cancelled by SIGINT and SIGTERM. One at a time.
+/// Standard output could not be written.
+class OutputLost : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// A context that draws progress on a terminal, and what SIGINT and SIGTERM do: the process ends at once with 130 or
+/// 143, with nothing half-written left behind. Only where the user wants what there is so far (`finish_early`), the
+/// first signal cancels the context instead. One console at a time.
 class Console {
 public:
     explicit Console(const CommonOptions& options);
@@ -44,11 +59,15 @@ public:
     Console& operator=(const Console&) = delete;
 
     [[nodiscard]] const Context* context() const { return &context_; }
+    /// From here on, the first signal cancels the context.
+    void finish_early();
     /// The exit code of the signal that came, or 0.
     [[nodiscard]] int interrupted() const;
     [[nodiscard]] bool wants_json() const { return options_.json; }
     [[nodiscard]] bool is_quiet() const { return options_.quiet; }
 
+    /// Throws `OutputLost` if what was printed did not arrive.
+    void flush();
     /// The one JSON object of the command.
     void print(const Json& json);
     /// A line for people; nothing with --json or --quiet.
@@ -57,6 +76,7 @@ public:
     void tell(std::string_view text);
 
 private:
+    void put(std::string_view text);
     void draw(std::string_view phase, double fraction);
     void clear_line();
 
@@ -64,7 +84,6 @@ private:
     Context context_;
     std::chrono::steady_clock::time_point drawn_{};
     bool terminal_ = false;
-    bool line_open_ = false;
 };
 
 /// The most memory that the process has had, in bytes.

@@ -71,8 +71,8 @@ void tell(const DistanceReport& report, Console& console) {
 }
 
 int run_distance(const DistanceArguments& arguments, Console& console) {
-    const PolygonSoup a = read_soup(arguments.a);
-    const PolygonSoup b = read_soup(arguments.b);
+    const PolygonSoup a = read_soup(input_path(arguments.a));
+    const PolygonSoup b = read_soup(input_path(arguments.b));
     const DistanceReport report = measure_distance(a, b, arguments.options, console.context());
     if (!report.complete) return console.interrupted();
     if (console.wants_json()) console.print(to_json(arguments, report));
@@ -87,7 +87,7 @@ void add_distance_command(CLI::App& app, Action& action) {
                                     "delmesh distance original.ply simplified.ply");
     const auto arguments = std::make_shared<DistanceArguments>();
     command->add_option("A", arguments->a, "Mesh file; percentages are of its bounding-box diagonal")->required();
-    command->add_option("B", arguments->b, "Mesh file")->required();
+    command->add_option("B", arguments->b, "Mesh file; -: standard input")->required();
     bind_options(*command, arguments->options);
     command->callback([&action, arguments] {
         action.run = [arguments](Console& console) { return run_distance(*arguments, console); };

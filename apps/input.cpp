@@ -15,7 +15,7 @@ void InputOptions::bind(CLI::App& command) {
 
 PolygonSoup load_soup(const std::string& path, const InputOptions& options, const Console& console,
                       std::optional<RepairReport>* report) {
-    PolygonSoup soup = read_soup(path);
+    PolygonSoup soup = read_soup(input_path(path));
     if (!options.repair) return soup;
     RepairReport found = repair(soup, options.repair_options, console.context());
     if (found.changed && !console.is_quiet()) fmt::print(stderr, "{}: repaired\n{}\n", path, findings_text(found));

@@ -8,6 +8,7 @@
 
 #include <cstdio>
 #include <new>
+#include <stdexcept>
 
 namespace delmesh::app {
 
@@ -26,10 +27,12 @@ CLI::App* add_command(CLI::App& app, Action& action, const std::string& name, co
 namespace {
 
 int fail(const CommonOptions& common, std::string_view code, const std::string& message, int exit_code) {
-    fmt::print(stderr, "delmesh: {}\n", message);
+    // Where these can not be written either, the exit code is left to tell.
+    std::fputs(("delmesh: " + message + "\n").c_str(), stderr);
     if (common.json) {
         const Json json{{"error", {{"code", code}, {"message", message}}}};
-        fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+        const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+        std::fputs(text.c_str(), common.mesh_on_stdout ? stderr : stdout);
     }
     return exit_code;
 }
@@ -38,11 +41,16 @@ int run(const Action& action) {
     try {
         Console console(action.common);
         const int exit_code = action.run(console);
+        console.flush();
         const int interrupted = console.interrupted();
         return interrupted != 0 ? interrupted : exit_code;
     } catch (const Error& error) {
         return fail(action.common, name(error.code()), error.what(), exit_code_of(error.code()));
+    } catch (const OutputLost& error) {
+        return fail(action.common, "file_not_writable", error.what(), exit_output);
     } catch (const std::bad_alloc&) {
+        return fail(action.common, "out_of_memory", "there is not enough memory for this mesh", exit_input);
+    } catch (const std::length_error&) {  // a container that no memory could hold
         return fail(action.common, "out_of_memory", "there is not enough memory for this mesh", exit_input);
     }
 }

@@ -21,10 +21,12 @@ WriteOptions OutputOptions::write_options() const {
     WriteOptions options;
     options.format = format.empty() ? format_from_path(path) : format_from_name(format);
     if (!options.format)
-        throw Error(
-            ErrorCode::bad_argument,
-            fmt::format("{}: the name does not tell a format; end it in .ply, .obj, .off or .stl, or give --format",
-                        path));
+        throw Error(ErrorCode::bad_argument,
+                    is_stdout()
+                        ? std::string("standard output has no name that tells a format: give --format")
+                        : fmt::format("{}: the name does not tell a format; end it in .ply, .obj, .off or .stl, or "
+                                      "give --format",
+                                      path));
     options.precision = precision_name == "float" ? Precision::float32 : Precision::float64;
     options.ascii = ascii;
     return options;

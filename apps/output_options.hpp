@@ -17,6 +17,7 @@ struct OutputOptions {
 
     /// Adds --format, --precision and --ascii.
     void bind(CLI::App& command);
+    [[nodiscard]] bool is_stdout() const { return path == "-"; }
     /// Throws `Error` (unsupported_format, bad_argument) if the file can not be written like that.
     [[nodiscard]] WriteOptions write_options() const;
     /// Of the coordinates in the file.

@@ -156,7 +156,7 @@ Mesh load(RemeshArguments& arguments, const WriteOptions& write_options, Console
 void write_results(const RemeshArguments& arguments, const WriteOptions& options, const Mesh& mesh, Outcome& outcome) {
     if (!outcome.complete() && !arguments.keep_partial) return;
     if (*options.format == Format::stl) check_places(arguments.output.path, mesh);
-    write_mesh(arguments.output.path, mesh, options);
+    write_mesh(output_path(arguments.output.path), mesh, options);
     if (!arguments.provenance.empty()) write_provenance(arguments.provenance, outcome.report.provenance);
     outcome.written = true;
 }
@@ -167,6 +167,7 @@ int run_remesh(RemeshArguments& arguments, Console& console) {
     Mesh mesh = load(arguments, write_options, console, outcome);
     outcome.before = measure(mesh, console.context());
     outcome.watch.lap("measure");
+    if (arguments.keep_partial) console.finish_early();
     outcome.report = make_delaunay(mesh, arguments.options, console.context());
     if (outcome.report.witness) {
         const HalfedgeId h = Mesh::halfedge(*outcome.report.witness);
@@ -174,7 +175,8 @@ int run_remesh(RemeshArguments& arguments, Console& console) {
     }
     outcome.watch.lap("remesh");
     if (outcome.report.stop == StopReason::cancelled && !arguments.keep_partial) return console.interrupted();
-    outcome.after = measure(mesh, console.context());
+    // What there is so far is measured whole, too.
+    outcome.after = measure(mesh, console.interrupted() != 0 ? nullptr : console.context());
     outcome.watch.lap("certify");
     write_results(arguments, write_options, mesh, outcome);
     outcome.watch.lap("write");
@@ -193,8 +195,12 @@ void add_remesh_command(CLI::App& app, Action& action) {
     CLI::App* command = add_command(app, action, "remesh", "Turn a mesh into a Delaunay mesh and certify it",
                                     "delmesh remesh bunny.obj bunny-delaunay.ply");
     const auto arguments = std::make_shared<RemeshArguments>();
-    command->add_option("IN", arguments->input, "Mesh file: PLY, OBJ, OFF or STL")->required();
-    command->add_option("OUT", arguments->output.path, "File to write; its ending tells the format")->required();
+    command
+        ->add_option("IN", arguments->input,
+                     "Mesh file: PLY, OBJ, OFF or STL, also packed as .gz or .zst; -: standard input")
+        ->required();
+    command->add_option("OUT", arguments->output.path, "File to write; its ending tells the format; -: standard output")
+        ->required();
     arguments->input_options.bind(*command);
     bind_options(*command, arguments->options);
     command
@@ -206,6 +212,7 @@ void add_remesh_command(CLI::App& app, Action& action) {
     command->add_option("--provenance", arguments->provenance, "Write where vertices and faces come from, as JSON")
         ->type_name("FILE");
     command->callback([&action, arguments] {
+        action.common.mesh_on_stdout = arguments->output.is_stdout();
         action.run = [arguments](Console& console) { return run_remesh(*arguments, console); };
     });
 }

@@ -24,11 +24,11 @@ struct RepairArguments {
 
 int run_repair(const RepairArguments& arguments, Console& console) {
     const WriteOptions options = arguments.output.write_options();
-    PolygonSoup soup = read_soup(arguments.input);
+    PolygonSoup soup = read_soup(input_path(arguments.input));
     if (arguments.output.precision() == Precision::float32) round_to_float(soup);
     const RepairReport report = repair(soup, arguments.options, console.context());
     if (report.cancelled) return console.interrupted();
-    write_soup(arguments.output.path, soup, options);
+    write_soup(output_path(arguments.output.path), soup, options);
     Json json{{"input", arguments.input},
               {"output", arguments.output.path},
               {"vertices", soup.points.size()},
@@ -50,11 +50,12 @@ void add_repair_command(CLI::App& app, Action& action) {
     CLI::App* command = add_command(app, action, "repair", "Make a manifold of any mesh, and tell what was wrong",
                                     "delmesh repair scan.stl clean.ply");
     const auto arguments = std::make_shared<RepairArguments>();
-    command->add_option("IN", arguments->input, "Mesh file")->required();
-    command->add_option("OUT", arguments->output.path, "File to write")->required();
+    command->add_option("IN", arguments->input, "Mesh file; -: standard input")->required();
+    command->add_option("OUT", arguments->output.path, "File to write; -: standard output")->required();
     bind_options(*command, arguments->options);
     arguments->output.bind(*command);
     command->callback([&action, arguments] {
+        action.common.mesh_on_stdout = arguments->output.is_stdout();
         action.run = [arguments](Console& console) { return run_repair(*arguments, console); };
     });
 }

@@ -41,7 +41,7 @@ int make(const SampleArguments& arguments, Console& console) {
     const WriteOptions options = arguments.output.write_options();
     PolygonSoup soup = make_sample(arguments.name, arguments.faces, arguments.seed);
     if (arguments.output.precision() == Precision::float32) round_to_float(soup);
-    write_soup(arguments.output.path, soup, options);
+    write_soup(output_path(arguments.output.path), soup, options);
     const Json json{{"name", arguments.name},
                     {"path", arguments.output.path},
                     {"vertices", soup.points.size()},
@@ -59,13 +59,14 @@ void add_sample_command(CLI::App& app, Action& action) {
                                     "delmesh sample torus torus.ply --faces 100000");
     const auto arguments = std::make_shared<SampleArguments>();
     command->add_option("NAME", arguments->name, "Which one");
-    command->add_option("OUT", arguments->output.path, "File to write");
+    command->add_option("OUT", arguments->output.path, "File to write; -: standard output");
     command->add_option("--faces", arguments->faces, "About how many faces; 0: the sample's default")->type_name("N");
     command->add_option("--seed", arguments->seed, "Of the noise, where there is some")
         ->capture_default_str()
         ->type_name("N");
     arguments->output.bind(*command);
     command->callback([&action, arguments] {
+        action.common.mesh_on_stdout = arguments->output.is_stdout();
         action.run = [arguments](Console& console) {
             return arguments->name.empty() ? list_samples(console) : make(*arguments, console);
         };

@@ -36,7 +36,6 @@ int run_stats(const std::vector<std::string>& paths, const InputOptions& input, 
         meshes.push_back(measure(mesh, console.context()));
         list.push_back({{"path", path}});
         list.back().update(to_json(meshes.back()));
-        if (console.interrupted() != 0) return exit_interrupted;
     }
     Json json;
     if (list.size() == 1) json = list[0];
@@ -54,7 +53,7 @@ void add_stats_command(CLI::App& app, Action& action) {
                     "delmesh stats before.ply after.ply");
     const auto paths = std::make_shared<std::vector<std::string>>();
     const auto input = std::make_shared<InputOptions>();
-    command->add_option("IN", *paths, "Mesh files")->required();
+    command->add_option("IN", *paths, "Mesh files; -: standard input")->required();
     input->bind(*command);
     command->callback([&action, paths, input] {
         action.run = [paths, input](Console& console) { return run_stats(*paths, *input, console); };

@@ -28,12 +28,15 @@ namespace {
 }  // namespace
 
 FileSource::FileSource(const std::filesystem::path& path) : name_(printable(path.string())) {
-    descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    // Opening "/dev/stdin" anew would start at the beginning of a file that others have read from.
+    const bool standard_input = path == "/dev/stdin";
+    descriptor_ =
+        standard_input ? ::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (descriptor_ < 0) fail(name_, errno);
     struct stat status {};
-    if (::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode) && status.st_size > 0) {
-        size_ = static_cast<std::uint64_t>(status.st_size);
-    }
+    if (::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) return;
+    const off_t done = standard_input ? ::lseek(descriptor_, 0, SEEK_CUR) : 0;
+    if (status.st_size > done) size_ = static_cast<std::uint64_t>(status.st_size - done);
 }
 
 FileSource::~FileSource() {

@@ -35,7 +35,7 @@ private:
 };
 
 /// A file, pipe or device, read from its beginning with read(2): a mapped file that shrinks meanwhile would end the
-/// process.
+/// process. "/dev/stdin" is read from where it stands.
 class FileSource final : public ByteSource {
 public:
     explicit FileSource(const std::filesystem::path& path);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cmath>
 #include <cstring>
 
 namespace delmesh::io {
@@ -43,6 +45,23 @@ bool has_size_of_stl(const Input& input, std::string_view text) {
     if (text.size() < stl_header + 4) return false;
     const std::uint64_t facets = little_endian(text.data() + stl_header);
     return input.remaining() == stl_header + 4 + stl_facet * facets;
+}
+
+/// Where the size is not known, as of a pipe: the first facets must look like facets, with normals that are none or of
+/// length one.
+bool looks_like_facets(std::string_view text) {
+    constexpr std::size_t enough = 16;
+    if (text.size() < stl_header + 4 + stl_facet || little_endian(text.data() + stl_header) == 0) return false;
+    const std::size_t facets = std::min(enough, (text.size() - stl_header - 4) / stl_facet);
+    for (std::size_t f = 0; f < facets; ++f) {
+        const char* facet = text.data() + stl_header + 4 + f * stl_facet;
+        for (std::size_t i = 0; i < 12; ++i) {
+            const float size = std::abs(std::bit_cast<float>(little_endian(facet + 4 * i)));
+            const bool plausible = i < 3 ? size < 1.01F : size == 0 || (size > 1e-20F && size < 1e20F);
+            if (!plausible) return false;
+        }
+    }
+    return true;
 }
 
 bool is_obj_keyword(std::string_view word) {
@@ -107,6 +126,7 @@ std::optional<Format> detect_format(Input& input) {
     if (is_solid(word)) return Format::stl;
     if (is_obj_keyword(word)) return Format::obj;
     if (looks_like_utf16(text)) fail_utf16(input);
+    if (!input.remaining() && looks_like_facets(text)) return Format::stl;
     return std::nullopt;
 }
 

@@ -66,6 +66,7 @@ bool Input::skip_far(std::uint64_t bytes) {
 }
 
 std::optional<std::uint64_t> Input::remaining() const {
+    if (at_end_) return available();
     const auto size = source_.size();
     if (!size) return std::nullopt;
     return std::max(*size, offset() + available()) - offset();

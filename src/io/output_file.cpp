@@ -1,6 +1,7 @@
 #include "io/output_file.hpp"
 
 #include "delmesh/base/error.hpp"
+#include "delmesh/io/write.hpp"
 #include "io/messages.hpp"
 
 #include <fcntl.h>
@@ -8,6 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <charconv>
@@ -56,6 +58,19 @@ std::filesystem::path temporary_name(const std::filesystem::path& target) {
     return target.parent_path() / fmt::format(".{}.{}-{}.tmp", stem, ::getpid(), counter++);
 }
 
+/// Names of temporary files, for a signal handler; more writes at once than this stay unknown to it.
+constexpr std::size_t most_names = 64;
+std::array<std::atomic<const char*>, most_names> unfinished{};
+
+/// The place of the name, counted from 1; 0 if there was none left.
+std::size_t publish(const char* name) {
+    for (std::size_t i = 0; i < most_names; ++i) {
+        const char* none = nullptr;
+        if (unfinished[i].compare_exchange_strong(none, name)) return i + 1;
+    }
+    return 0;
+}
+
 }  // namespace
 
 OutputFile::OutputFile(const std::filesystem::path& path)
@@ -85,15 +100,21 @@ OutputFile::OutputFile(const std::filesystem::path& path)
 void OutputFile::open_beside(const std::filesystem::path& target) {
     constexpr int attempts = 100;
     for (int i = 0; i < attempts; ++i) {
-        const std::filesystem::path name = temporary_name(target);
-        descriptor_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (descriptor_ >= 0) {
-            temporary_ = name;
-            return;
-        }
-        if (errno != EEXIST) fail(errno);
+        temporary_ = temporary_name(target);
+        place_ = publish(temporary_.c_str());
+        descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (descriptor_ >= 0) return;
+        const int error = errno;
+        forget_temporary();
+        if (error != EEXIST) fail(error);
     }
     fail(EEXIST);
+}
+
+void OutputFile::forget_temporary() {
+    if (place_ > 0) unfinished[place_ - 1].store(nullptr);
+    place_ = 0;
+    temporary_.clear();
 }
 
 /// A file that may not be written must not be replaced either.
@@ -107,12 +128,14 @@ void OutputFile::keep_permissions(const std::filesystem::path& target) {
     ::close(descriptor_);
     descriptor_ = -1;
     ::unlink(temporary_.c_str());
+    forget_temporary();
     fail(error);
 }
 
 OutputFile::~OutputFile() {
     if (descriptor_ >= 0) ::close(descriptor_);
     if (!temporary_.empty()) ::unlink(temporary_.c_str());
+    forget_temporary();
 }
 
 void OutputFile::text(std::string_view text) {
@@ -143,7 +166,7 @@ void OutputFile::commit() {
     if (closed != 0) fail(errno);
     if (temporary_.empty()) return;
     if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
-    temporary_.clear();
+    forget_temporary();
 }
 
 void OutputFile::fail(int error) const {
@@ -151,3 +174,9 @@ void OutputFile::fail(int error) const {
 }
 
 }  // namespace delmesh::io
+
+void delmesh::remove_unfinished_files() noexcept {
+    for (const auto& slot : io::unfinished) {
+        if (const char* name = slot.load()) ::unlink(name);
+    }
+}

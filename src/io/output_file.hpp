@@ -35,6 +35,7 @@ public:
 private:
     static constexpr std::size_t capacity = std::size_t{1} << 18;
 
+    void forget_temporary();
     void open_beside(const std::filesystem::path& target);
     void keep_permissions(const std::filesystem::path& target);
     void flush();
@@ -43,6 +44,7 @@ private:
     std::string name_;
     std::filesystem::path target_;
     std::filesystem::path temporary_;  // empty: written directly
+    std::size_t place_ = 0;            // among the names that a signal handler can see, one past
     int descriptor_ = -1;
     std::unique_ptr<char[]> buffer_;
     std::size_t used_ = 0;

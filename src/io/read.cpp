@@ -1,6 +1,7 @@
 #include "delmesh/io/read.hpp"
 
 #include "io/readers.hpp"
+#include "io/unpack.hpp"
 
 #include <string>
 
@@ -39,18 +40,32 @@ PolygonSoup read_input(Input& input, std::optional<Format> hint, const ReadOptio
     throw Error(ErrorCode::unsupported_format, input.name() + ": this format is not read");
 }
 
+namespace {
+
+/// By the extension, of what is packed if the name says that it is.
+std::optional<Format> hint_of(const std::filesystem::path& path) {
+    const std::string last = path.extension().string();
+    return format_from_path(last == ".gz" || last == ".zst" ? path.stem() : path);
+}
+
+PolygonSoup read_source(ByteSource& source, const std::string& name, const ReadOptions& options) {
+    UnpackedSource unpacked(source, name);
+    Input input(unpacked, name);
+    return read_input(input, hint_of(name), options);
+}
+
+}  // namespace
+
 }  // namespace io
 
 PolygonSoup read_soup(const std::filesystem::path& path, const ReadOptions& options) {
     io::FileSource source(path);
-    io::Input input(source, path.string());
-    return io::read_input(input, format_from_path(path), options);
+    return io::read_source(source, path.string(), options);
 }
 
 PolygonSoup parse_soup(std::span<const std::byte> bytes, std::string_view name, const ReadOptions& options) {
     io::MemorySource source(bytes);
-    io::Input input(source, name);
-    return io::read_input(input, format_from_path(std::string(name)), options);
+    return io::read_source(source, std::string(name), options);
 }
 
 }  // namespace delmesh

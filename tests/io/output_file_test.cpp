@@ -150,6 +150,21 @@ TEST(OutputFile, ADiskThatFillsUpLeavesTheOldFile) {
     EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{"a"});
 }
 
+TEST(OutputFile, UnfinishedFilesAreKnownToSignalHandlers) {
+    const test::TestFolder folder;
+    test::write_bytes(folder / "a", "old");
+    write_text(folder / "b", "whole");
+    {
+        OutputFile first(folder / "a");
+        OutputFile second(folder / "c");
+        EXPECT_EQ(names_in(folder.path()).size(), 4u);
+        remove_unfinished_files();
+        EXPECT_EQ(names_in(folder.path()), (std::vector<std::string>{"a", "b"}));
+        EXPECT_THROW(second.commit(), Error);
+    }
+    EXPECT_EQ(test::read_bytes(folder / "a"), "old");
+}
+
 TEST(OutputFile, TwoWritersLeaveOneWholeFile) {
     const test::TestFolder folder;
     OutputFile first(folder / "a");

@@ -29,4 +29,8 @@ struct WriteOptions {
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const WriteOptions& options = {});
 void write_soup(const std::filesystem::path& path, const PolygonSoup& soup, const WriteOptions& options = {});
 
+/// Removes what writes that are under way have put beside their targets: for a signal handler that ends the process
+/// (async-signal-safe). Those writes fail if they go on.
+void remove_unfinished_files() noexcept;
+
 }  // namespace delmesh

@@ -1,0 +1,127 @@
+// The readers: any bytes give a soup that holds together, or an error of one line.
+
+#include "delmesh/io/read.hpp"
+
+#include "delmesh/base/error.hpp"
+#include "target.hpp"
+
+#define ZLIB_CONST
+#include <zlib.h>
+#include <zstd.h>
+
+#include <algorithm>
+
+namespace delmesh::fuzz {
+
+namespace {
+
+constexpr std::string_view format_name = FUZZ_FORMAT;
+
+void check(PolygonSoup soup) {
+    for (const std::uint32_t corner : soup.corners) require(corner < soup.points.size(), "indices are in range");
+    for (const auto& line : soup.lines)
+        require(line[0] < soup.points.size() && line[1] < soup.points.size(), "lines are in range");
+    if (soup.starts.empty()) {
+        require(soup.corners.size() % 3 == 0, "triangles have three corners");
+    } else {
+        require(std::ranges::is_sorted(soup.starts) && soup.starts.front() == 0 &&
+                    soup.starts.back() == soup.corners.size(),
+                "faces follow one another");
+    }
+    triangulate(soup);
+}
+
+std::string repeated(const std::string& text, int n) {
+    std::string result;
+    for (int i = 0; i < n; ++i) result += text;
+    return result;
+}
+
+std::string gzip(const std::string& text) {
+    std::string packed(compressBound(text.size()) + 64, '\0');
+    z_stream stream{};
+    deflateInit2(&stream, 6, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY);
+    stream.next_in = reinterpret_cast<const Bytef*>(text.data());
+    stream.avail_in = static_cast<uInt>(text.size());
+    stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+    stream.avail_out = static_cast<uInt>(packed.size());
+    deflate(&stream, Z_FINISH);
+    packed.resize(stream.total_out);
+    deflateEnd(&stream);
+    return packed;
+}
+
+std::string zstd(const std::string& text) {
+    std::string packed(ZSTD_compressBound(text.size()), '\0');
+    packed.resize(ZSTD_compress(packed.data(), packed.size(), text.data(), text.size(), 1));
+    return packed;
+}
+
+std::vector<std::string> ply_seeds() {
+    const std::string xyz = "property float x\nproperty double y\nproperty short z\n";
+    const std::string faces = "element face 2\nproperty list uchar int vertex_indices\n";
+    const std::string ascii = "ply\nformat ascii 1.0\ncomment c\n";
+    const std::string body(4 * 14, '\1');
+    const std::string list("\3\0\0\0\0\1\0\0\0\2\0\0\0", 13);
+    std::vector<std::string> result{
+        ascii + "element vertex 4\n" + xyz + faces + "end_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2\n3 1 3 2\n",
+        ascii + "element vertex 3\n" + xyz +
+            "element tristrips 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n5 0 1 2 -1 "
+            "0\n"};
+    for (const char* order : {"little", "big"}) {
+        result.push_back(std::string("ply\nformat binary_") + order + "_endian 1.0\nelement vertex 4\n" + xyz + faces +
+                         "property uchar red\nend_header\n" + body + list + "\1" + list + "\1");
+    }
+    return result;
+}
+
+std::vector<std::string> seeds_of(std::string_view format) {
+    if (format == "ply") return ply_seeds();
+    if (format == "obj") {
+        return {
+            "# c\nv 0 0 0\nv 1 0 0 1 1 1\nv 1 1e-3 0\r\nv .5 1 nan\nvt 0 0\nf 1/1 2/1 \\\n 3/1\nf -4//1 -3//1 -2//1\n"
+            "l 1 2 3\n"};
+    }
+    if (format == "off") {
+        return {
+            "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+            "STCNOFF # c\n3 1 0\n0 0 0 0 0 1 1 1 1 1 0 0\n1 0 0 0 0 1 1 1 1 1 0 0\n0 1 0 0 0 1 1 1 1 1 0 0\n3 0 1 2\n",
+            "4nOFF 4\n3 1\n0 0 0 1 1\n1 0 0 1 2\n0 1 0 1 4\n3 0\n1 2\n",
+            std::string("OFF BINARY\n\0\0\0\3\0\0\0\1\0\0\0\0", 23) + std::string(36, '\x3f') +
+                std::string("\0\0\0\3\0\0\0\0\0\0\0\1\0\0\0\2\0\0\0\0", 20)};
+    }
+    return {
+        "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
+        "0\nendloop\nendfacet\nendsolid\n",
+        std::string(80, ' ') + std::string("\2\0\0\0", 4) +
+            repeated(std::string(48, '\x3f') + std::string(2, '\0'), 2)};
+}
+
+}  // namespace
+
+std::vector<std::string> seeds() {
+    if (!format_name.empty()) return seeds_of(format_name);
+    std::vector<std::string> result;
+    for (const char* format : {"ply", "obj", "off", "stl"}) {
+        for (const std::string& text : seeds_of(format)) {
+            for (const std::string& packed : {text, gzip(text), zstd(text), gzip(text) + gzip(text)})
+                result.push_back(packed);
+        }
+    }
+    return result;
+}
+
+}  // namespace delmesh::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace delmesh;
+    try {
+        fuzz::check(parse_soup(std::as_bytes(std::span(data, size)), "input", {format_from_name(fuzz::format_name)}));
+    } catch (const Error& error) {
+        const std::string message = error.what();
+        fuzz::require(message.starts_with("input: "), "messages name the file", message);
+        fuzz::require(message.find_first_of("\r\n") == message.npos && message.size() < 300, "messages are one line",
+                      message);
+    }
+    return 0;
+}
