@@ -4,7 +4,9 @@
 #include "delmesh/base/error.hpp"
 #include "exit_code.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <new>
@@ -37,6 +39,15 @@ int fail(const CommonOptions& common, std::string_view code, const std::string& 
     return exit_code;
 }
 
+/// What is opened later must not become the standard output that a caller has closed: words would go into a mesh.
+void occupy_closed_streams() {
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+        if (::fcntl(stream, F_GETFD) >= 0) continue;
+        // The lowest free number is taken, and the other way round: to use it stays an error.
+        if (::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY) != stream) return;
+    }
+}
+
 int run(const Action& action) {
     try {
         Console console(action.common);
@@ -60,6 +71,7 @@ int run(const Action& action) {
 
 int main(int argc, char** argv) {
     using namespace delmesh::app;
+    occupy_closed_streams();
     CLI::App app("Turns any triangle mesh into a Delaunay mesh, and proves that it is one.", "delmesh");
     app.require_subcommand(1);
     app.set_version_flag("--version", DELMESH_VERSION);

@@ -157,7 +157,7 @@ int run_simplify(SimplifyArguments& arguments, Console& console) {
         Level level{report, measure(at, console.context()), path_of(arguments.output.path, report.target), false};
         if (level.measured.certificate.certified && (is_wanted_end(arguments, report) || arguments.keep_partial)) {
             if (*write_options.format == Format::stl) check_places(level.path, at);
-            write_mesh(level.path, at, write_options);
+            write_mesh(output_path(level.path), at, write_options);
             level.written = true;
         }
         outcome.levels.push_back(std::move(level));
@@ -192,8 +192,11 @@ void add_simplify_command(CLI::App& app, Action& action) {
     CLI::App* command = add_command(app, action, "simplify", "Make a mesh coarser; every level is a Delaunay mesh",
                                     "delmesh simplify bunny.ply bunny-{}.ply --levels 10000,1000,100");
     const auto arguments = std::make_shared<SimplifyArguments>();
-    command->add_option("IN", arguments->input, "Mesh file")->required();
-    command->add_option("OUT", arguments->output.path, "File to write; {} stands for the level's number")->required();
+    command->add_option("IN", arguments->input, "Mesh file; -: standard input")->required();
+    command
+        ->add_option("OUT", arguments->output.path,
+                     "File to write; -: standard output; {} stands for the level's number")
+        ->required();
     command->add_option("--levels", arguments->options.levels, "Several levels, as numbers of vertices")
         ->type_name("N1,N2,...")
         ->delimiter(',')
@@ -214,6 +217,7 @@ void add_simplify_command(CLI::App& app, Action& action) {
         ->type_name("FILE");
     command->add_flag("--keep-partial", arguments->keep_partial, "Write levels that stopped short, too");
     command->callback([&action, arguments] {
+        action.common.mesh_on_stdout = arguments->output.is_stdout();
         action.run = [arguments](Console& console) { return run_simplify(*arguments, console); };
     });
 }

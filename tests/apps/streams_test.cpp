@@ -54,7 +54,14 @@ TEST_F(Streams, BrokenPipesAndFullDisksAre4) {
         EXPECT_TRUE(full.tells_one_sentence()) << line;
         EXPECT_NE(full.err.find("No space left"), std::string::npos) << full.err;
     }
-    EXPECT_EQ(shell("delmesh check a.ply >&-").exit_code, 4);
+    for (const char* line :
+         {"delmesh check a.ply >&-", "delmesh repair a.ply b.ply >&-", "delmesh check a.ply >&- <&-"}) {
+        const test::Ran closed = shell(line);
+        EXPECT_EQ(closed.exit_code, 4) << line;
+        EXPECT_TRUE(closed.tells_one_sentence()) << line;
+    }
+    EXPECT_EQ(bytes("b.ply"), bytes("a.ply"));
+    EXPECT_EQ(delmesh("repair a.ply b.ply 2>&-").exit_code, 0);
 }
 
 TEST_F(Streams, LimitsOnFileSizeLeaveNothingBehind) {

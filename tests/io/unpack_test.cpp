@@ -91,7 +91,7 @@ TEST(Unpack, PackedFilesOfEveryFormatAreReadLikePlainOnes) {
         const PolygonSoup plain = read_soup(folder / plain_name);
         const std::string bytes = test::read_bytes(folder / plain_name);
         for (const Pack pack : packs) {
-            for (const std::string packed_name :
+            for (const std::string& packed_name :
                  {plain_name + ".gz", plain_name + ".zst", plain_name, std::string("x")}) {
                 test::write_bytes(folder / packed_name, pack(bytes));
                 EXPECT_TRUE(test::same_soup(read_soup(folder / packed_name), plain)) << packed_name;
