@@ -175,7 +175,7 @@ TEST(Hostile, HugeCountsReserveNothing) {
     expect_no_harm("nOFF BINARY\n" + std::string(100, '\xff'), "a.off");
     expect_no_harm(std::string(84, '\xff') + body, "a.stl");
     test::expect_error([] { (void)test::parse_dripping(std::string(84, '\xff'), "a.stl", 10, 10); },
-                       ErrorCode::file_format, "expected facet 0 of 4294967295");
+                       ErrorCode::file_format, "found 4294967295, but the file holds 0");
 }
 
 TEST(Hostile, LongLines) {

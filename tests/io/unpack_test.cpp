@@ -129,7 +129,7 @@ TEST(Unpack, DamagedDataAreErrorsOrMeshes) {
                 EXPECT_TRUE(std::string(error.what()).starts_with("a.obj: ")) << error.what();
             }
         }
-        EXPECT_GT(errors, 1000u);
+        EXPECT_GT(errors, 500u);  // Zstandard has no check sum by default
     }
     test::expect_parse_error(gzip(text) + "junk", "a.obj.gz", "expected another member or the end");
     test::expect_parse_error(zstd(text) + "junk", "a.obj.zst", "expected Zstandard data, found damaged data");
