@@ -17,7 +17,7 @@ Context one_thread({}, 1);
 
 /// Face and vertex order as from a hash table: the worst case for the cache.
 PolygonSoup shuffled(PolygonSoup soup) {
-    testing::Random random(7);
+    test::Random random(7);
     std::vector<std::uint32_t> place(soup.points.size());
     for (std::uint32_t i = 0; i < place.size(); ++i) place[i] = i;
     for (std::size_t i = place.size(); i > 1; --i) std::swap(place[i - 1], place[random.bits() % i]);

@@ -8,6 +8,7 @@
 #include "delmesh/mesh/shapes.hpp"
 #include "delmesh/mesh/validate.hpp"
 #include "support/families.hpp"
+#include "support/random.hpp"
 
 #include <gtest/gtest.h>
 
@@ -59,26 +60,21 @@ bool same(const Mesh& a, const Mesh& b) {
            std::equal(a.corners().begin(), a.corners().end(), b.corners().begin(), b.corners().end());
 }
 
-struct Random {
-    std::uint64_t state;
-    double next() {
-        std::uint64_t z = (state += 0x9e3779b97f4a7c15ull);
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-        return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
-    }
-    Vec3 point(double thickness) { return {next(), next(), thickness * next()}; }
-};
+Vec3 random_point(test::Random& random, double thickness) {
+    const double x = random.unit();
+    const double y = random.unit();
+    return {x, y, thickness * random.unit()};
+}
 
 TEST(Theorem1, AFlipNeverAddsArea) {
-    Random random{1};
+    test::Random random(1);
     int flips = 0;
     for (int i = 0; i < 100000; ++i) {
         const double thickness = i % 3 == 0 ? 1.0 : i % 3 == 1 ? 1e-3 : 0.0;
-        const Vec3 p = random.point(thickness);
-        const Vec3 q = random.point(thickness);
-        const Vec3 u = random.point(thickness);
-        const Vec3 v = random.point(thickness);
+        const Vec3 p = random_point(random, thickness);
+        const Vec3 q = random_point(random, thickness);
+        const Vec3 u = random_point(random, thickness);
+        const Vec3 v = random_point(random, thickness);
         if (delaunay_sign(p, q, u, v) != Sign::negative) continue;
         ++flips;
         const double before = area(p, q, u) + area(q, p, v);

@@ -2,6 +2,7 @@
 // Families of quadrilaterals p, q, u, v (the edge pq between the apexes u and v), near the places where signs change.
 
 #include "delmesh/base/vec3.hpp"
+#include "support/random.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,21 +15,13 @@
 
 namespace delmesh::families {
 
-/// splitmix64 (Steele, Lea, Flood 2014): the same numbers on every system.
-class Random {
+/// Draws as all tests do, and what only the predicates want.
+class Random : public test::Random {
 public:
-    explicit Random(std::uint64_t seed) : state_(seed) {}
+    using test::Random::Random;
 
-    std::uint64_t next() {
-        std::uint64_t z = (state_ += 0x9e3779b97f4a7c15);
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-        return z ^ (z >> 31);
-    }
-    /// Uniform in 0 .. n-1 (n small).
-    int below(int n) { return static_cast<int>(next() % static_cast<std::uint64_t>(n)); }
     /// Uniform in [-1, 1).
-    double symmetric() { return static_cast<double>(static_cast<std::int64_t>(next())) * 0x1p-63; }
+    double symmetric() { return static_cast<double>(static_cast<std::int64_t>(bits())) * 0x1p-63; }
     Vec3 point() {
         const double x = symmetric(), y = symmetric(), z = symmetric();
         return {x, y, z};
@@ -36,11 +29,8 @@ public:
     /// Any finite double: random bits.
     double any_double() {
         for (;;)
-            if (const double x = std::bit_cast<double>(next()); std::isfinite(x)) return x;
+            if (const double x = std::bit_cast<double>(bits()); std::isfinite(x)) return x;
     }
-
-private:
-    std::uint64_t state_;
 };
 
 struct Quad {

@@ -22,7 +22,7 @@ std::uint64_t any_word(families::Random& random) {
         case 3:
             return static_cast<std::uint64_t>(random.below(3));
         default:
-            return random.next();
+            return random.bits();
     }
 }
 

@@ -5,6 +5,7 @@
 #include "delmesh/io/read.hpp"
 #include "delmesh/io/write.hpp"
 #include "io/readers.hpp"
+#include "support/random.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -19,23 +20,6 @@
 #include <vector>
 
 namespace delmesh::test {
-
-/// A small generator whose numbers are the same everywhere (splitmix64).
-class Random {
-public:
-    explicit Random(std::uint64_t seed) : state_(seed) {}
-    std::uint64_t bits() {
-        std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
-        z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-        z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-        return z ^ z >> 31;
-    }
-    std::uint64_t below(std::uint64_t n) { return bits() % n; }
-    double unit() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
-
-private:
-    std::uint64_t state_;
-};
 
 /// A folder of its own for each test, gone at the end.
 class TestFolder {

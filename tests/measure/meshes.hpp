@@ -2,6 +2,7 @@
 // Meshes for the tests of this layer, made by code.
 
 #include "delmesh/mesh/mesh.hpp"
+#include "support/random.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -9,23 +10,6 @@
 #include <vector>
 
 namespace delmesh::testing {
-
-/// SplitMix64 (Steele, Lea, Flood 2014): the same numbers everywhere.
-class Random {
-public:
-    explicit Random(std::uint64_t seed) : state_(seed) {}
-    std::uint64_t bits() {
-        std::uint64_t z = (state_ += 0x9e3779b97f4a7c15);
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-        return z ^ (z >> 31);
-    }
-    /// In [-1, 1).
-    double real() { return std::ldexp(static_cast<double>(bits() >> 11), -52) - 1; }
-
-private:
-    std::uint64_t state_;
-};
 
 inline PolygonSoup soup_of(std::vector<Vec3> points, std::vector<std::uint32_t> corners) {
     PolygonSoup soup;
@@ -55,12 +39,13 @@ inline PolygonSoup grid_soup(std::uint32_t n, double step = 1, double height = 0
 /// A torus of n by m quads, each cut in two, with radii 1 and 0.4; points moved by up to `noise` in each coordinate.
 inline PolygonSoup torus_soup(std::uint32_t n, std::uint32_t m, double noise, std::uint64_t seed = 1) {
     constexpr double tau = 6.283185307179586;
-    Random random(seed);
+    test::Random random(seed);
     PolygonSoup soup;
     for (std::uint32_t i = 0; i < n; ++i) {
         for (std::uint32_t j = 0; j < m; ++j) {
             const double s = tau * i / n, t = tau * j / m, r = 1 + 0.4 * std::cos(t);
-            const double dx = noise * random.real(), dy = noise * random.real(), dz = noise * random.real();
+            const double dx = noise * random.real(-1, 1), dy = noise * random.real(-1, 1),
+                         dz = noise * random.real(-1, 1);
             soup.points.push_back({r * std::cos(s) + dx, r * std::sin(s) + dy, 0.4 * std::sin(t) + dz});
         }
     }

@@ -1,6 +1,7 @@
 #include "delmesh/mesh/edits.hpp"
 
 #include "delmesh/mesh/validate.hpp"
+#include "support/random.hpp"
 
 #include <gtest/gtest.h>
 
@@ -26,17 +27,6 @@ PolygonSoup grid(std::uint32_t n, bool closed) {
     return soup;
 }
 
-struct Random {
-    std::uint64_t state;
-    std::uint64_t next() {
-        std::uint64_t z = (state += 0x9e3779b97f4a7c15ull);
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-        return z ^ (z >> 31);
-    }
-    std::size_t below(std::size_t n) { return static_cast<std::size_t>(next() % n); }
-};
-
 long long euler(const Mesh& mesh) {
     std::set<VertexId> used(mesh.corners().begin(), mesh.corners().end());
     used.erase(VertexId());
@@ -57,7 +47,7 @@ class Edits : public testing::TestWithParam<bool> {};
 TEST_P(Edits, RandomFlipsAndSplitsKeepEverything) {
     Mesh mesh(grid(6, GetParam()));
     const long long chi = euler(mesh);
-    Random random{1};
+    test::Random random{1};
     std::size_t flips = 0;
     for (int step = 0; step < 3000; ++step) {
         const HalfedgeId h(random.below(mesh.halfedge_count()));
@@ -79,7 +69,7 @@ TEST_P(Edits, RandomCollapsesKeepTopology) {
         Mesh mesh(grid(7, GetParam()));
         const long long chi = euler(mesh);
         const bool closed = GetParam();
-        Random random{seed};
+        test::Random random{seed};
         std::size_t collapses = 0;
         for (int step = 0; step < 4000; ++step) {
             const HalfedgeId h(random.below(mesh.halfedge_count()));
@@ -108,7 +98,7 @@ TEST_P(Edits, RandomCollapsesKeepTopology) {
 TEST_P(Edits, AllowedExactlyWhereTheResultIsAMesh) {
     // can_collapse must agree with trying it on the soup: merge, drop the two faces, build.
     Mesh mesh(grid(3, GetParam()));
-    Random random{7};
+    test::Random random{7};
     for (int round = 0; round < 60; ++round) {
         for (std::size_t i = 0; i < mesh.halfedge_count(); ++i) {
             const HalfedgeId h(i);

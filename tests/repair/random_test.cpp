@@ -1,5 +1,6 @@
 // Whatever comes in: what is promised holds. Random triangles over few places meet in every way there is.
 
+#include "support/random.hpp"
 #include "delmesh/mesh/shapes.hpp"
 #include "repair/repair_support.hpp"
 #include "support/families.hpp"
@@ -8,21 +9,6 @@
 
 namespace delmesh::test {
 namespace {
-
-/// splitmix64: the same numbers on every system.
-class Random {
-public:
-    explicit Random(std::uint64_t seed) : state_(seed) {}
-    std::uint32_t below(std::uint32_t n) {
-        std::uint64_t z = state_ += 0x9e3779b97f4a7c15U;
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-        return static_cast<std::uint32_t>((z ^ (z >> 31)) % n);
-    }
-
-private:
-    std::uint64_t state_;
-};
 
 /// Triangles between points of a small integer grid: coincident vertices, caps, needles, double faces, crowded edges.
 PolygonSoup random_soup(std::uint64_t seed) {

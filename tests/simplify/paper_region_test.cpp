@@ -1,7 +1,7 @@
 #include "simplify/paper_region.hpp"
 
 #include "delmesh/exact/predicates.hpp"
-#include "simplify/random.hpp"
+#include "support/random.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 #include "delmesh/measure/certificate.hpp"
 #include "delmesh/mesh/shapes.hpp"
 #include "delmesh/mesh/validate.hpp"
-#include "simplify/random.hpp"
 #include "support/families.hpp"
+#include "support/random.hpp"
 #include "support/surface_facts.hpp"
 
 #include <gtest/gtest.h>
@@ -106,7 +106,7 @@ TEST(ProgressiveMesh, BrokenBytesAreRefusedOrHarmless) {
     test::Random random(8);
     for (int i = 0; i < 1000; ++i) {
         std::vector<std::byte> bytes = good;
-        for (std::size_t k = 0; k <= random.below(3); ++k)
+        for (std::size_t k = 0; k <= random.below(std::size_t{3}); ++k)
             bytes[random.below(bytes.size())] = static_cast<std::byte>(random.below(256));
         try {
             const Mesh mesh = decode(bytes, "test").at(1000000);

@@ -1,6 +1,6 @@
 #include "delmesh/simplify/quadric_program.hpp"
 
-#include "simplify/random.hpp"
+#include "support/random.hpp"
 
 #include <gtest/gtest.h>
 
@@ -165,16 +165,6 @@ TEST(QuadricProgram, APlaneAloneHasNoFactors) {
     Quadric q;
     q.add_plane({0, 0, 1}, 2, 1);
     EXPECT_FALSE(factorise(q));
-}
-
-TEST(Quadric, MovingTheOriginKeepsTheValues) {
-    Random random(2);
-    for (int i = 0; i < 1000; ++i) {
-        const Quadric q = random_quadric(random);
-        const Vec3 origin = random.vec(2);
-        const Vec3 x = random.vec(2);
-        EXPECT_NEAR(q.moved_to(origin)(x - origin), q(x), 1e-12 * (1 + q(x)) * 100);
-    }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "support/families.hpp"
 
 #include "delmesh/mesh/shapes.hpp"
+#include "support/random.hpp"
 
 #include <array>
 #include <cmath>
@@ -11,23 +12,6 @@
 namespace delmesh::test {
 
 namespace {
-
-/// splitmix64: standard distributions differ between systems.
-class Random {
-public:
-    explicit Random(std::uint64_t seed) : state_(seed) {}
-    std::uint64_t next() {
-        std::uint64_t x = state_ += 0x9e3779b97f4a7c15U;
-        x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
-        x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
-        return x ^ (x >> 31U);
-    }
-    std::size_t below(std::size_t n) { return static_cast<std::size_t>(next() % n); }
-    double unit() { return std::ldexp(static_cast<double>(next() >> 11U), -53); }
-
-private:
-    std::uint64_t state_;
-};
 
 using Triangle = std::array<std::uint32_t, 3>;
 
