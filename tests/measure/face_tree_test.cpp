@@ -11,7 +11,7 @@
 namespace delmesh::measure {
 namespace {
 
-using delmesh::testing::Random;
+using delmesh::test::Random;
 using LongVec = std::array<long double, 3>;
 
 long double long_dot(const LongVec& a, const LongVec& b) {
@@ -57,13 +57,15 @@ std::vector<Case> cases() {
     std::vector<Case> all;
     Random random(5);
     const auto vector = [&](double size) {
-        return Vec3{size * random.real(), size * random.real(), size * random.real()};
+        return Vec3{size * random.real(-1, 1), size * random.real(-1, 1), size * random.real(-1, 1)};
     };
     for (int i = 0; i < 1500; ++i) {
         const double thin = std::pow(10.0, -(i % 18));
         const Vec3 a = vector(1), b = vector(1);
-        Vec3 c = i % 3 == 0 ? vector(1) : i % 3 == 1 ? a + random.real() * (b - a) + vector(thin) : a + vector(thin);
-        const double u = random.real(), v = random.real();
+        Vec3 c = i % 3 == 0   ? vector(1)
+                 : i % 3 == 1 ? a + random.real(-1, 1) * (b - a) + vector(thin)
+                              : a + vector(thin);
+        const double u = random.real(-1, 1), v = random.real(-1, 1);
         const Vec3 over = a + u * (b - a) + v * (c - a);
         const double distance = std::pow(10.0, -(i % 7) * 3);
         all.push_back({over + vector(distance), a, b, c});
@@ -106,14 +108,15 @@ TEST(EightBoxes, PortableAndVectorisedCodeAgree) {
         EightBoxes boxes;
         for (int axis = 0; axis < 3; ++axis) {
             for (std::size_t lane = 0; lane < EightBoxes::count; ++lane) {
-                const double x = random.real(), y = random.real();
+                const double x = random.real(-1, 1), y = random.real(-1, 1);
                 boxes.low[axis][lane] = static_cast<float>(std::min(x, y));
                 boxes.high[axis][lane] = static_cast<float>(std::max(x, y));
             }
             boxes.low[axis][7] = std::numeric_limits<float>::infinity();  // absent
             boxes.high[axis][7] = -std::numeric_limits<float>::infinity();
         }
-        const std::array<float, 3> p{static_cast<float>(random.real()), static_cast<float>(random.real()), 0.0F};
+        const std::array<float, 3> p{static_cast<float>(random.real(-1, 1)), static_cast<float>(random.real(-1, 1)),
+                                     0.0F};
         BoxDistances one, two;
         find_near(boxes, p, 1e-3F, 0.2F, one);
         portable::find_near(boxes, p, 1e-3F, 0.2F, two);
@@ -140,7 +143,7 @@ TEST(FaceTree, FindsTheMinimumOverAllTrianglesWhateverTheHint) {
         Random random(9);
         const auto count = static_cast<std::uint32_t>(tree.triangles().size());
         for (int i = 0; i < 40; ++i) {
-            const Vec3 off{random.real(), random.real(), random.real()};
+            const Vec3 off{random.real(-1, 1), random.real(-1, 1), random.real(-1, 1)};
             const double size = std::pow(10.0, -(i % 10));
             const Vec3 p = i % 10 == 0 ? off : points[random.bits() % points.size()] + size * off;
             FaceTree::Nearest expected{std::numeric_limits<double>::infinity(), 0};

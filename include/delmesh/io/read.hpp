@@ -17,8 +17,8 @@ struct ReadOptions {
     std::optional<Format> format;
 };
 
-/// Reads a mesh file; gzip and Zstandard data are unpacked on the way, and lines and bytes in messages are then those of
-/// the unpacked data. STL corners are welded where their coordinates are equal (-0 equals +0), in order of first
+/// Reads a mesh file; gzip and Zstandard data are unpacked on the way, and lines and bytes in messages are then those
+/// of the unpacked data. STL corners are welded where their coordinates are equal (-0 equals +0), in order of first
 /// appearance. Numbers are read as doubles at full precision, but for an ascii PLY file whose header says `float`: such
 /// a number is the nearest float, as in any program that keeps the declared type. Infinities and NaNs are kept; a
 /// decimal number that overflows is an error. All vertex indices are checked. Throws `Error` (file_not_readable,
