@@ -47,7 +47,7 @@ inline std::vector<std::string> soup_seeds() {
         {0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4, 3, 4, 7, 3, 7, 6, 4, 5, 8, 4, 8, 7},
         {0, 1, 2, 1, 3, 2, 2, 3, 4, 3, 5, 4, 4, 5, 1, 5, 0, 1}};
     for (std::uint8_t style = 0; style < styles; ++style) {
-        for (const std::uint8_t scale : {4, 0, 8}) {
+        for (const std::uint8_t scale : {std::uint8_t{4}, std::uint8_t{0}, std::uint8_t{8}}) {
             for (const auto& list : faces) {
                 std::string text{static_cast<char>(style), '\x06', static_cast<char>(scale), '\1'};
                 for (int p = 0; p < 9; ++p) {

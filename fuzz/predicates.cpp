@@ -22,10 +22,6 @@ std::vector<std::string> seeds() {
 
 namespace {
 
-bool is_finite(const Vec3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
 void compare(const Vec3& p, const Vec3& q, const Vec3& u, const Vec3& v, double cosine) {
     require(orientation(p, q, u, v) == reference::orientation(p, q, u, v), "orientation");
     require(are_collinear(p, q, u) == reference::collinear(p, q, u), "are_collinear");
@@ -50,7 +46,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const Vec3 q = point(bytes, style);
     const Vec3 u = point(bytes, style);
     const Vec3 v = point(bytes, style);
-    if (delmesh::is_finite(p) && delmesh::is_finite(q) && delmesh::is_finite(u) && delmesh::is_finite(v))
+    if (is_finite(p) && is_finite(q) && is_finite(u) && is_finite(v))
         compare(p, q, u, v, cosine);
     return 0;
 }
