@@ -46,7 +46,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const Vec3 q = point(bytes, style);
     const Vec3 u = point(bytes, style);
     const Vec3 v = point(bytes, style);
-    if (is_finite(p) && is_finite(q) && is_finite(u) && is_finite(v))
-        compare(p, q, u, v, cosine);
+    if (is_finite(p) && is_finite(q) && is_finite(u) && is_finite(v)) compare(p, q, u, v, cosine);
     return 0;
 }

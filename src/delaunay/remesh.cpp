@@ -117,13 +117,16 @@ void flip_surface(Mesh& mesh, const RemeshOptions& options, const Context* conte
                       features ? options.feature_edges : std::vector<std::array<VertexId, 2>>{}, context),
         {});
     flip_edges(flipping, features, options, context, report);
+    Cleaning cleaning;
     for (int round = 0; round < most_cleanings && report.stop == StopReason::done; ++round) {
-        if (clean_up(flipping, context).changes == 0) break;
+        cleaning = clean_up(flipping, context);
+        if (cleaning.changes == 0) break;
         flip_edges(flipping, features, options, context, report);
     }
     report.splits = flipping.split_count();
     report.provenance = flipping.take_provenance();
-    if (report.stop != StopReason::done || find_non_delaunay(mesh, context).empty()) return;
+    if (report.stop != StopReason::done) return;
+    if (cleaning.changes == 0 && !cleaning.left && find_non_delaunay(mesh, context).empty()) return;
 
     RemeshReport rest;
     MarkedMesh refining(mesh, mark_edges(mesh, context), {});

@@ -8,6 +8,7 @@
 #include <unistd.h>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <thread>
 
@@ -87,21 +88,22 @@ TEST_F(Interruption, IsIgnoredWhereTheCallerSaysSo) {
     EXPECT_EQ(exit_code_of(child), 0);  // no faces, and so no edge that is not Delaunay
 }
 
-/// A grid of needles: preserve mode adds points for a long time.
+/// A twisted tube, a million times as long as wide: preserve mode would add points for minutes.
 std::string needles() {
-    constexpr int n = 150;
+    constexpr int n = 20;
     std::string text;
-    for (int y = 0; y <= n; ++y) {
-        for (int x = 0; x <= n; ++x) {
-            text += "v " + std::to_string(x) + " " + std::to_string(1e-4 * y) + " " +
-                    std::to_string(0.01 * ((x * 7 + y * 13) % 11)) + "\n";
+    for (int x = 0; x <= n; ++x) {
+        for (int k = 0; k < n; ++k) {
+            const double turn = 0.314159265358979 * (k + 0.37 * x);
+            text += "v " + std::to_string(1e6 * x) + " " + std::to_string(std::cos(turn)) + " " +
+                    std::to_string(std::sin(turn)) + "\n";
         }
     }
-    for (int y = 0; y < n; ++y) {
-        for (int x = 0; x < n; ++x) {
-            const int v = y * (n + 1) + x + 1;
-            text += "f " + std::to_string(v) + " " + std::to_string(v + 1) + " " + std::to_string(v + n + 2) + " " +
-                    std::to_string(v + n + 1) + "\n";
+    const auto vertex = [](int x, int k) { return std::to_string(x * n + k % n + 1) + " "; };
+    for (int x = 0; x < n; ++x) {
+        for (int k = 0; k < n; ++k) {
+            text += "f " + vertex(x, k) + vertex(x + 1, k) + vertex(x + 1, k + 1) + "\n";
+            text += "f " + vertex(x, k) + vertex(x + 1, k + 1) + vertex(x, k + 1) + "\n";
         }
     }
     return text;
