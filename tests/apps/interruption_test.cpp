@@ -88,15 +88,18 @@ TEST_F(Interruption, IsIgnoredWhereTheCallerSaysSo) {
     EXPECT_EQ(exit_code_of(child), 0);  // no faces, and so no edge that is not Delaunay
 }
 
-/// A twisted tube, a million times as long as wide: preserve mode would add points for minutes.
+/// An uneven tube, a million times as long as wide: preserve mode would add points for minutes.
 std::string needles() {
-    constexpr int n = 20;
+    constexpr int n = 24;
+    constexpr double pi = 3.14159265358979;
     std::string text;
     for (int x = 0; x <= n; ++x) {
         for (int k = 0; k < n; ++k) {
-            const double turn = 0.314159265358979 * (k + 0.37 * x);
-            text += "v " + std::to_string(1e6 * x) + " " + std::to_string(std::cos(turn)) + " " +
-                    std::to_string(std::sin(turn)) + "\n";
+            const double along = pi * (x + 1) / (n + 2) + 0.03 * ((x * 7 + k * 13) % 11) / 11;
+            const double around = 2 * pi * (k + 0.5 * (x % 2)) / n + 0.05 * ((x * 5 + k * 3) % 7) / 7;
+            text += "v " + std::to_string(1e6 * std::cos(along)) + " " +
+                    std::to_string(std::sin(along) * std::cos(around)) + " " +
+                    std::to_string(std::sin(along) * std::sin(around)) + "\n";
         }
     }
     const auto vertex = [](int x, int k) { return std::to_string(x * n + k % n + 1) + " "; };
