@@ -101,7 +101,7 @@ TEST(Triangulate, TrianglesStayInPlaceAndSmallFacesGo) {
 TEST(Triangulate, QuadsTakeTheDiagonalWithTheBetterAngle) {
     for (int turn = 0; turn < 4; ++turn) {
         std::vector<Vec3> rhombus{{-3, 0, 0}, {0, -1, 0}, {3, 0, 0}, {0, 1, 0}};
-        std::ranges::rotate(rhombus, rhombus.begin() + turn);
+        std::rotate(rhombus.begin(), rhombus.begin() + turn, rhombus.end());
         PolygonSoup soup = one_polygon(rhombus);
         triangulate(soup);
         // The short diagonal joins the two points with x = 0: both triangles hold both.
@@ -116,7 +116,7 @@ TEST(Triangulate, ConcaveQuadsAreCutInside) {
         for (const double depth : {0.1, 0.5, 0.99}) {
             std::vector<Vec3> dart{{0, 0, 2}, {1, 0, 2}, {1 - depth, 1 - depth, 2}, {0, 1, 2}};
             if (depth == 0.1) dart[2] = {0.49, 0.49, 2};
-            std::ranges::rotate(dart, dart.begin() + turn);
+            std::rotate(dart.begin(), dart.begin() + turn, dart.end());
             expect_tiling(dart, {0, 0, 1});
         }
     }
@@ -168,7 +168,7 @@ TEST(Triangulate, SpiralsAndCombsAreTiled) {
     std::vector<Vec3> spiral;
     for (int i = 0; i <= 60; ++i) spiral.push_back({(i + 1) * std::cos(0.3 * i), (i + 1) * std::sin(0.3 * i), 0});
     for (int i = 60; i >= 0; --i) spiral.push_back({(i + 4) * std::cos(0.3 * i), (i + 4) * std::sin(0.3 * i), 0});
-    std::ranges::reverse(spiral);
+    std::reverse(spiral.begin(), spiral.end());
     expect_tiling(spiral, {0, 0, 1});
 }
 
