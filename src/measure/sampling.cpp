@@ -25,7 +25,7 @@ public:
     [[nodiscard]] std::size_t begin(std::size_t t) const {
         if (t == 0) return 0;
         if (t == sums_.size()) return count_;
-        return std::min(count_, static_cast<std::size_t>(sums_[t - 1] * factor_ + 0.5));
+        return std::min(count_, static_cast<std::size_t>(std::llround(sums_[t - 1] * factor_)));
     }
     /// The triangle that thing i belongs to. O(log n).
     [[nodiscard]] std::size_t owner(std::size_t i) const {
