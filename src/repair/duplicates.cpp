@@ -55,18 +55,19 @@ private:
         }
     }
 
-    /// Of an odd number of faces at one place the first is kept, of an even number two, oriented differently if there
-    /// are such: that does not change the parity of any edge.
+    /// Of an odd number of faces at one place one is kept, of an even number two: that does not change the parity of
+    /// any edge. Faces of opposite orientation cancel as far as they can.
     void reduce(std::span<const Index> sides) {
         for (const Index h : sides) gone_[h / 3] = 1;
-        gone_[sides[0] / 3] = 0;
+        std::array<std::vector<Index>, 2> ways;
+        for (const Index h : sides) ways[complex_.opposite(h, sides[0]) ? 1 : 0].push_back(h);
+        const std::vector<Index>& more = ways[ways[1].size() > ways[0].size() ? 1 : 0];
+        gone_[more[0] / 3] = 0;
         if (sides.size() % 2 == 1) return;
-        const auto other =
-            std::find_if(sides.begin(), sides.end(), [&](Index h) { return complex_.opposite(h, sides[0]); });
-        const bool opposite = other != sides.end();
-        const Index second = opposite ? *other : sides[1];
+        const bool opposite = ways[0].size() == ways[1].size();
+        const Index second = opposite ? ways[1][0] : more[1];
         gone_[second / 3] = 0;
-        layers_.push_back({sides[0] / 3, second / 3, opposite});
+        layers_.push_back({more[0] / 3, second / 3, opposite});
     }
 
     /// What decides about a patch: double faces that are connected by edges.

@@ -27,6 +27,7 @@ public:
         }
         turn_faces();
         if (twisted_.empty()) return 0;
+        is_cut_.assign(complex_.face_count(), 0);
         part_partners();
         return report_cuts();
     }
@@ -134,21 +135,21 @@ private:
     /// The half-edges from `start` on stay alone at their edge, in pairs and perhaps one more.
     std::uint64_t note_cut(const std::vector<Index>& alone, std::size_t start) {
         const std::size_t pairs = (alone.size() - start) / 2;
+        if (pairs == 0) return 0;
         for (std::size_t i = 0; i < pairs; ++i) cuts_.push_back(alone[start + 2 * i]);
-        return pairs == 0 ? 0 : pairs * shortener_->weights().at(alone[start]);
+        for (std::size_t i = start; i < alone.size(); ++i) is_cut_[alone[i] / 3] = 1;
+        return pairs * shortener_->weights().at(alone[start]);
     }
 
     std::uint64_t report_cuts() {
-        std::vector<char> is_cut(complex_.face_count(), 0);
         for (const Index h : cuts_) {
-            is_cut[h / 3] = 1;
             if (complex_.mended[h / 3] != 0)
                 log_.add_pair(Defect::cut_edge, complex_.source[complex_.from(h)], complex_.source[complex_.to(h)]);
         }
         for (std::size_t i = 0; i < twisted_starts_.size(); ++i) {
             const auto first = twisted_.begin() + static_cast<std::ptrdiff_t>(i == 0 ? 0 : twisted_starts_[i - 1]);
             const auto last = twisted_.begin() + static_cast<std::ptrdiff_t>(twisted_starts_[i]);
-            if (complex_.mended[*first] != 0 && std::any_of(first, last, [&](Index f) { return is_cut[f] != 0; }))
+            if (complex_.mended[*first] != 0 && std::any_of(first, last, [&](Index f) { return is_cut_[f] != 0; }))
                 log_.add(Defect::non_orientable, complex_.origin[*first]);
         }
         return cut_;
@@ -161,7 +162,8 @@ private:
     std::vector<Index> component_;
     std::vector<Index> twisted_;  ///< faces of components that can not be oriented, one component after another
     std::vector<std::size_t> twisted_starts_;
-    std::vector<Index> cuts_;
+    std::vector<Index> cuts_;   ///< a half-edge for each two that stay alone at one edge
+    std::vector<char> is_cut_;  ///< faces with such a half-edge
     std::uint64_t cut_ = 0;
     std::optional<CutShortener> shortener_;
 };

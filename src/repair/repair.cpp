@@ -26,6 +26,7 @@ void make_manifold(Complex& complex, Log& log, const Context* context) {
         const std::uint64_t cut = orient(complex, partners, log, context);
         separate_fans(complex, partners, log);
         turn_outward(complex, partners, log);
+        report_progress(context, "repair", 0.9);
         if ((cut == 0 && !doubled.kept) || cut >= cut_before) return;
         cut_before = cut;
     }
@@ -110,7 +111,8 @@ std::vector<Id> all_ids(std::size_t count) {
     return ids;
 }
 
-RepairReport run(PolygonSoup& soup, const RepairOptions& options, const Context* context) {
+/// Does all of it and leaves the input alone; `result` is written only if anything was changed.
+RepairReport run(const PolygonSoup& soup, const RepairOptions& options, const Context* context, PolygonSoup& result) {
     Log log;
     report_progress(context, "repair", 0);
     Complex complex = sift(soup, log);
@@ -131,7 +133,7 @@ RepairReport run(PolygonSoup& soup, const RepairOptions& options, const Context*
         report.findings = log.findings();
         report.vertex_origin = std::move(outcome.vertex_origin);
         report.face_origin = std::move(outcome.face_origin);
-        soup = std::move(outcome.soup);
+        result = std::move(outcome.soup);
     } else {
         // Polygons stay polygons.
         report.vertex_origin = all_ids<VertexId>(soup.points.size());
@@ -141,18 +143,31 @@ RepairReport run(PolygonSoup& soup, const RepairOptions& options, const Context*
     return report;
 }
 
-}  // namespace
-}  // namespace repairing
-
-RepairReport repair(PolygonSoup& soup, const RepairOptions& options, const Context* context) {
-    repairing::check_options(options);
+RepairReport run_unless_cancelled(const PolygonSoup& soup, const RepairOptions& options, const Context* context,
+                                  PolygonSoup& result) {
+    check_options(options);
     try {
-        return repairing::run(soup, options, context);
-    } catch (const repairing::Cancelled&) {
+        return run(soup, options, context, result);
+    } catch (const Cancelled&) {
         RepairReport report;
         report.cancelled = true;
         return report;
     }
+}
+
+}  // namespace
+}  // namespace repairing
+
+RepairReport repair(PolygonSoup& soup, const RepairOptions& options, const Context* context) {
+    PolygonSoup result;
+    RepairReport report = repairing::run_unless_cancelled(soup, options, context, result);
+    if (report.changed) soup = std::move(result);
+    return report;
+}
+
+RepairReport diagnose(const PolygonSoup& soup, const RepairOptions& options, const Context* context) {
+    PolygonSoup ignored;
+    return repairing::run_unless_cancelled(soup, options, context, ignored);
 }
 
 }  // namespace delmesh

@@ -1,11 +1,14 @@
 // Whatever comes in: what is promised holds. Random triangles over few places meet in every way there is.
 
 #include "support/random.hpp"
+#include "delmesh/exact/predicates.hpp"
 #include "delmesh/mesh/shapes.hpp"
 #include "repair/repair_support.hpp"
 #include "support/families.hpp"
 
 #include <gtest/gtest.h>
+
+#include <set>
 
 namespace delmesh::test {
 namespace {
@@ -58,6 +61,33 @@ TEST(RandomSoup, VoxelsComeApartClosed) {
         const Repaired out = repair_and_check(soup);
         EXPECT_EQ(count_boundary_edges(out.soup), 0U);
         EXPECT_EQ(count_components(out.soup), cubes);
+        if (::testing::Test::HasFailure()) return;
+    }
+}
+
+/// Closed bodies over few vertices, glued in every way: every edge has an even number of faces, and stays without hole.
+TEST(RandomSoup, GluedTetrahedraStayClosed) {
+    for (std::uint64_t seed = 0; seed < 300; ++seed) {
+        SCOPED_TRACE(seed);
+        Random random(seed);
+        PolygonSoup soup;
+        const std::uint32_t vertices = 5 + random.below(12);
+        for (std::uint32_t v = 0; v < vertices; ++v)
+            soup.points.push_back({random.below(6) + 0.1 * v, random.below(6) + 0.01 * v * v, 1.0 * random.below(6)});
+        for (std::uint32_t t = 0; t < 2 * vertices; ++t) {
+            std::array<std::uint32_t, 4> p{};
+            for (auto& v : p) v = random.below(vertices);
+            if (std::set<std::uint32_t>(p.begin(), p.end()).size() < 4) continue;
+            if (orientation(soup.points[p[0]], soup.points[p[1]], soup.points[p[2]], soup.points[p[3]]) ==
+                Sign::positive)
+                std::swap(p[0], p[1]);
+            for (const Triangle& f : {Triangle{p[0], p[1], p[2]}, Triangle{p[0], p[3], p[1]},
+                                      Triangle{p[1], p[3], p[2]}, Triangle{p[0], p[2], p[3]}}) {
+                soup.add_face(f);
+                if (seed % 2 == 0 && random.below(3) == 0) turn_face(soup, soup.face_count() - 1);
+            }
+        }
+        EXPECT_EQ(count_boundary_edges(repair_and_check(soup).soup), 0U);
         if (::testing::Test::HasFailure()) return;
     }
 }

@@ -134,6 +134,19 @@ TEST(Repair, LeavesTheSoupAloneWhenCancelled) {
     EXPECT_TRUE(same_bits(soup, before));
 }
 
+TEST(Repair, DiagnosisIsTheReportOfTheRepair) {
+    PolygonSoup soup = take_apart(make_cube({0, 0, 0}));
+    soup.add_face(Triangle{0, 1, 99});
+    const PolygonSoup before = soup;
+    const RepairReport foreseen = diagnose(soup);
+    EXPECT_TRUE(same_bits(soup, before));
+    const RepairReport report = repair(soup);
+    ASSERT_EQ(foreseen.findings.size(), report.findings.size());
+    for (std::size_t i = 0; i < report.findings.size(); ++i)
+        EXPECT_EQ(sentence(foreseen.findings[i]), sentence(report.findings[i]));
+    EXPECT_FALSE(diagnose(soup).changed);
+}
+
 TEST(Repair, TellsItsProgress) {
     std::vector<double> fractions;
     Context context([&](std::string_view, double fraction) { fractions.push_back(fraction); });

@@ -105,4 +105,8 @@ struct RepairReport {
 /// exception the soup is what it was. Cost: O(n log n) time, O(n) memory.
 RepairReport repair(PolygonSoup& soup, const RepairOptions& options = {}, const Context* context = nullptr);
 
+/// What `repair` would report; the soup stays as it is.
+[[nodiscard]] RepairReport diagnose(const PolygonSoup& soup, const RepairOptions& options = {},
+                                    const Context* context = nullptr);
+
 }  // namespace delmesh
