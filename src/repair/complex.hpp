@@ -116,20 +116,22 @@ struct Doubled {
     bool dropped = false;  ///< some were dropped
     bool kept = false;     ///< some are still double, as both layers are needed
 };
-/// Drops faces at the place of another one, unless both layers are needed.
-Doubled remove_duplicates(Complex& complex, Log& log);
+/// Drops faces at the place of another one, unless both layers are needed. `groups` hold before and after.
+Doubled remove_duplicates(Complex& complex, EdgeGroups& groups, Log& log);
 
 /// For each half-edge the one it is joined with, or none.
 using Partners = std::vector<Index>;
 /// Joins the half-edges of each edge in pairs; at most one of each edge stays alone.
-[[nodiscard]] Partners pair_halfedges(const Complex& complex, Log& log, const Context* context);
+[[nodiscard]] Partners pair_halfedges(const Complex& complex, const EdgeGroups& groups, Log& log,
+                                      const Context* context);
 /// Turns faces so that partners run in opposite directions, and parts those that can not. Returns how much was parted,
-/// as a sum of lengths in a fixed unit: 0 if nothing was.
-std::uint64_t orient(Complex& complex, Partners& partners, Log& log, const Context* context);
+/// as a sum of lengths in a fixed unit: 0 if nothing was. `groups` hold before and after.
+std::uint64_t orient(Complex& complex, EdgeGroups& groups, Partners& partners, Log& log, const Context* context);
 /// Exchanges partners at edges that would join the same two vertices twice, and numbers the vertices so that partners
 /// share their ends and nothing else does.
-void separate_fans(Complex& complex, Partners& partners, Log& log);
-/// Turns the outermost closed components outwards, and with them what lies inside. `partners` do not hold afterwards.
+void separate_fans(Complex& complex, const EdgeGroups& groups, Partners& partners, Log& log);
+/// Turns the outermost closed components outwards, and with them what lies inside. Neither `partners` nor any groups
+/// hold afterwards.
 void turn_outward(Complex& complex, const Partners& partners, Log& log);
 
 }  // namespace delmesh::repairing

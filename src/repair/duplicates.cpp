@@ -18,10 +18,10 @@ struct Layers {
 
 class DuplicateRemover {
 public:
-    DuplicateRemover(Complex& complex, Log& log)
+    DuplicateRemover(Complex& complex, EdgeGroups& groups, Log& log)
         : complex_(complex),
           log_(log),
-          groups_(complex),
+          groups_(groups),
           gone_(complex.face_count(), 0) {}
 
     Doubled run() {
@@ -33,6 +33,7 @@ public:
         for (std::size_t f = 0; f < gone_.size(); ++f)
             if (gone_[f] != 0) log_.add(Defect::duplicate_face, complex_.origin[f]);
         complex_.drop_faces([&](std::size_t f) { return gone_[f] != 0; });
+        groups_ = EdgeGroups(complex_);
         return result;
     }
 
@@ -139,7 +140,7 @@ private:
 
     Complex& complex_;
     Log& log_;
-    EdgeGroups groups_;
+    EdgeGroups& groups_;
     std::vector<char> gone_;
     std::vector<Layers> layers_;
     std::vector<Index> layer_of_;
@@ -148,8 +149,8 @@ private:
 
 }  // namespace
 
-Doubled remove_duplicates(Complex& complex, Log& log) {
-    return DuplicateRemover(complex, log).run();
+Doubled remove_duplicates(Complex& complex, EdgeGroups& groups, Log& log) {
+    return DuplicateRemover(complex, groups, log).run();
 }
 
 }  // namespace delmesh::repairing

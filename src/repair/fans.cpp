@@ -12,17 +12,17 @@ namespace {
 
 class FanSeparator {
 public:
-    FanSeparator(Complex& complex, Partners& partners, Log& log)
+    FanSeparator(Complex& complex, const EdgeGroups& groups, Partners& partners, Log& log)
         : complex_(complex),
+          groups_(groups),
           partners_(partners),
           log_(log),
           fan_(complex.halfedge_count()) {}
 
     void run() {
         name_fans();
-        const EdgeGroups groups(complex_);
-        for (std::size_t g = 0; g < groups.size(); ++g)
-            if (groups[g].size() > 2) part_double_edges(groups[g]);
+        for (std::size_t g = 0; g < groups_.size(); ++g)
+            if (groups_[g].size() > 2) part_double_edges(groups_[g]);
         number_vertices();
     }
 
@@ -171,6 +171,7 @@ private:
     }
 
     Complex& complex_;
+    const EdgeGroups& groups_;
     Partners& partners_;
     Log& log_;
     std::vector<Index> fan_;
@@ -179,8 +180,8 @@ private:
 
 }  // namespace
 
-void separate_fans(Complex& complex, Partners& partners, Log& log) {
-    FanSeparator(complex, partners, log).run();
+void separate_fans(Complex& complex, const EdgeGroups& groups, Partners& partners, Log& log) {
+    FanSeparator(complex, groups, partners, log).run();
 }
 
 }  // namespace delmesh::repairing

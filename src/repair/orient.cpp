@@ -11,8 +11,9 @@ namespace {
 
 class Orienter {
 public:
-    Orienter(Complex& complex, Partners& partners, Log& log)
+    Orienter(Complex& complex, EdgeGroups& groups, Partners& partners, Log& log)
         : complex_(complex),
+          groups_(groups),
           partners_(partners),
           log_(log),
           turn_(complex.face_count(), 0) {}
@@ -42,7 +43,7 @@ private:
         }
         if (!shortener_) shortener_.emplace(complex_, partners_, turn_, context);
         for (const Index f : component_) turn_[f] = 0;
-        shortener_->run(component_);
+        shortener_->run(component_, is_settled());
         turn_the_fewer(component_);
         note_mended();
         twisted_.insert(twisted_.end(), component_.begin(), component_.end());
@@ -81,9 +82,10 @@ private:
         return complex_.opposite(h, g) == (turn_[h / 3] == turn_[g / 3]);
     }
 
-    /// A component is as it was if no face is turned, all that was joined stays joined and all that was not, not.
-    void note_mended() {
-        const bool changed = std::any_of(component_.begin(), component_.end(), [&](Index f) {
+    /// True if a component comes out as it went in: no face is turned, all that was joined stays joined and all that
+    /// was not stays apart. So it is after a repair.
+    [[nodiscard]] bool is_settled() const {
+        return std::none_of(component_.begin(), component_.end(), [&](Index f) {
             if (turn_[f] != 0) return true;
             for (Index h = 3 * f; h < 3 * f + 3; ++h) {
                 const Index g = partners_[h];
@@ -91,7 +93,10 @@ private:
             }
             return false;
         });
-        if (!changed) return;
+    }
+
+    void note_mended() {
+        if (is_settled()) return;
         for (const Index f : component_) complex_.mended[f] = 1;
     }
 
@@ -106,6 +111,7 @@ private:
             }
             for (Index h = 3 * f; h < 3 * f + 3; ++h) partners_[h] = moved(partners_[h]);
         }
+        groups_ = EdgeGroups(complex_);
     }
 
     /// Parts partners that run in the same direction. Where that leaves half-edges of both directions alone at one
@@ -116,14 +122,13 @@ private:
                 const Index g = partners_[h];
                 if (g != none && !complex_.opposite(h, g)) partners_[h] = partners_[g] = none;
             }
-        const EdgeGroups groups(complex_);
         std::vector<Index> along;
         std::vector<Index> against;
-        for (std::size_t e = 0; e < groups.size(); ++e) {
+        for (std::size_t e = 0; e < groups_.size(); ++e) {
             along.clear();
             against.clear();
-            for (const Index h : groups[e])
-                if (partners_[h] == none) (complex_.opposite(h, groups[e][0]) ? against : along).push_back(h);
+            for (const Index h : groups_[e])
+                if (partners_[h] == none) (complex_.opposite(h, groups_[e][0]) ? against : along).push_back(h);
             for (std::size_t i = 0; i < std::min(along.size(), against.size()); ++i) {
                 partners_[along[i]] = against[i];
                 partners_[against[i]] = along[i];
@@ -156,6 +161,7 @@ private:
     }
 
     Complex& complex_;
+    EdgeGroups& groups_;
     Partners& partners_;
     Log& log_;
     std::vector<char> turn_;
@@ -170,8 +176,8 @@ private:
 
 }  // namespace
 
-std::uint64_t orient(Complex& complex, Partners& partners, Log& log, const Context* context) {
-    return Orienter(complex, partners, log).run(context);
+std::uint64_t orient(Complex& complex, EdgeGroups& groups, Partners& partners, Log& log, const Context* context) {
+    return Orienter(complex, groups, partners, log).run(context);
 }
 
 }  // namespace delmesh::repairing

@@ -25,10 +25,10 @@ struct Spoke {
 
 class Pairing {
 public:
-    Pairing(const Complex& complex, Log& log)
+    Pairing(const Complex& complex, const EdgeGroups& groups, Log& log)
         : complex_(complex),
           log_(log),
-          groups_(complex),
+          groups_(groups),
           partner_(complex.halfedge_count(), none) {}
 
     Partners run(const Context* context) {
@@ -245,7 +245,7 @@ private:
 
     const Complex& complex_;
     Log& log_;
-    EdgeGroups groups_;
+    const EdgeGroups& groups_;
     Partners partner_;
     Sheets sheets_{0};
     std::vector<Index> rest_;
@@ -257,8 +257,8 @@ private:
 
 }  // namespace
 
-Partners pair_halfedges(const Complex& complex, Log& log, const Context* context) {
-    return Pairing(complex, log).run(context);
+Partners pair_halfedges(const Complex& complex, const EdgeGroups& groups, Log& log, const Context* context) {
+    return Pairing(complex, groups, log).run(context);
 }
 
 }  // namespace delmesh::repairing

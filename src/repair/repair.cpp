@@ -20,11 +20,12 @@ void make_manifold(Complex& complex, Log& log, const Context* context) {
     std::uint64_t cut_before = std::numeric_limits<std::uint64_t>::max();
     Log later;
     for (bool is_first = true;; is_first = false) {
-        const Doubled doubled = remove_duplicates(complex, log);
+        EdgeGroups groups(complex);
+        const Doubled doubled = remove_duplicates(complex, groups, log);
         if (doubled.dropped) cut_before = std::numeric_limits<std::uint64_t>::max();
-        Partners partners = pair_halfedges(complex, is_first ? log : later, context);
-        const std::uint64_t cut = orient(complex, partners, log, context);
-        separate_fans(complex, partners, log);
+        Partners partners = pair_halfedges(complex, groups, is_first ? log : later, context);
+        const std::uint64_t cut = orient(complex, groups, partners, log, context);
+        separate_fans(complex, groups, partners, log);
         turn_outward(complex, partners, log);
         report_progress(context, "repair", 0.9);
         if ((cut == 0 && !doubled.kept) || cut >= cut_before) return;

@@ -26,7 +26,7 @@ std::uint64_t EdgeWeights::at(Index h) const {
     return 1 + static_cast<std::uint64_t>(norm(scaled(d)));
 }
 
-void CutShortener::run(const std::vector<Index>& component) {
+void CutShortener::run(const std::vector<Index>& component, bool settled) {
     State best = save(component);
     std::uint64_t shortest = cut_length(component);
     const auto compete = [&] {
@@ -37,11 +37,13 @@ void CutShortener::run(const std::vector<Index>& component) {
         best = save(component);
     };
     compete();
-    const Index root = *std::min_element(component.begin(), component.end());
-    const Index far = follow_front(component, root);
-    compete();
-    follow_front(component, far);
-    compete();
+    if (!settled) {
+        const Index root = *std::min_element(component.begin(), component.end());
+        const Index far = follow_front(component, root);
+        compete();
+        follow_front(component, far);
+        compete();
+    }
     for (std::size_t i = 0; i < best.size(); ++i) turn_[component[i]] = best[i];
 }
 

@@ -24,8 +24,9 @@ private:
 /// something strictly shorter is found, so that a surface that was cut this way before is cut at the same place again.
 ///
 /// Faces are oriented in the order of their distance from a face, so that the cut runs where the front meets itself;
-/// then single faces are turned while that shortens the cut. Two such fronts and the given orientation compete. Not the
-/// shortest cut there is (finding that is hard), but free of detours. Cost: O(n log n) and the turns.
+/// then single faces are turned while that shortens the cut. Two such fronts and the given orientation compete; where
+/// the surface is cut already (`settled`), only the given orientation is improved on. Not the shortest cut there is
+/// (finding that is hard), but free of detours. Cost: O(n log n) and the turns.
 class CutShortener {
 public:
     CutShortener(const Complex& complex, const Partners& partners, std::vector<char>& turn, const Context* context)
@@ -36,7 +37,7 @@ public:
           distance_(complex.face_count()),
           context_(context) {}
 
-    void run(const std::vector<Index>& component);
+    void run(const std::vector<Index>& component, bool settled);
     [[nodiscard]] const EdgeWeights& weights() const { return weights_; }
 
 private:
