@@ -61,6 +61,7 @@ Json run_to_json(const RemeshArguments& arguments, const Outcome& outcome) {
     json["exposed"] = report.exposed;
     json["foldovers"] = report.foldovers;
     if (arguments.options.mode == RemeshMode::preserve) json["lower_bound"] = report.lower_bound;
+    if (report.splits_by_shells > 0) json["splits_by_shells"] = report.splits_by_shells;
     json["stop"] = name(report.stop);
     json["witness"] = outcome.witness.empty() ? Json() : Json(outcome.witness);
     json["rounded_by"] = outcome.rounded_by;

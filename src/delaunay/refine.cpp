@@ -18,12 +18,17 @@ public:
           report_(report),
           splitter_(marked, options, report, suspects_) {}
 
-    void run() {
+    void run(const SplitPlanner& planner) {
         suspects_ = find_non_delaunay(mesh_, context_);
         std::reverse(suspects_.begin(), suspects_.end());
         flip_suspects();
-        count_lower_bound();
-        make_room();
+        const std::vector<EdgeId> bad = find_bad();
+        report_.lower_bound = bad.size();
+        if (planner && !bad.empty()) {
+            carry_out(planner(marked_, bad));
+        } else {
+            marked_.reserve_splits(6 * bad.size());
+        }
         while (!splitter_.stopped() && next_split_ < splits_.size()) {
             treat(splits_[next_split_++]);
             flip_suspects();
@@ -55,15 +60,24 @@ private:
 
     /// Once planar edges have been flipped, each physical edge left over must be split at least once by any method that
     /// keeps the surface: vertices added elsewhere can only make the angles opposite to it larger.
-    void count_lower_bound() {
+    std::vector<EdgeId> find_bad() const {
         std::vector<EdgeId> bad;
         for (const HalfedgeId h : splits_)
             if (!marked_.is_planar(h) && is_non_delaunay(mesh_, h)) bad.push_back(mesh_.edge(h));
         std::sort(bad.begin(), bad.end());
-        report_.lower_bound = static_cast<std::size_t>(std::unique(bad.begin(), bad.end()) - bad.begin());
+        bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
+        return bad;
     }
 
-    void make_room() { marked_.reserve_splits(6 * report_.lower_bound); }
+    void carry_out(const std::vector<SplitPoint>& plan) {
+        if (is_cancelled(context_)) return splitter_.stop(StopReason::cancelled, splits_.front());
+        marked_.reserve_splits(plan.size() + plan.size() / 8);
+        for (std::size_t begin = 0, end = 0; begin < plan.size() && !splitter_.stopped(); begin = end) {
+            while (end < plan.size() && plan[end].a == plan[begin].a && plan[end].b == plan[begin].b) ++end;
+            splitter_.split_edge_at({plan.data() + begin, end - begin});
+        }
+        flip_suspects();
+    }
 
     /// One edge of the queue, which may have become Delaunay, flippable or another edge in the meantime.
     void treat(HalfedgeId h) {
@@ -106,8 +120,9 @@ private:
 
 }  // namespace
 
-void refine(MarkedMesh& marked, const RemeshOptions& options, const Context* context, RemeshReport& report) {
-    Refinement(marked, options, context, report).run();
+void refine(MarkedMesh& marked, const RemeshOptions& options, const Context* context, RemeshReport& report,
+            const SplitPlanner& planner) {
+    Refinement(marked, options, context, report).run(planner);
 }
 
 }  // namespace delmesh

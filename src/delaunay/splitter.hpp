@@ -4,6 +4,7 @@
 #include "delaunay/marked_mesh.hpp"
 #include "delmesh/delaunay/remesh.hpp"
 
+#include <span>
 #include <vector>
 
 namespace delmesh {
@@ -23,6 +24,9 @@ public:
     void split_at_shell(HalfedgeId h);
     /// Splits in the middle: for a planar edge whose opposing edge exists elsewhere, as where a surface touches itself.
     void halve(HalfedgeId h);
+    /// Splits an input edge at all of these points, which are ordered by parameter. Leaves out what rounding does not
+    /// allow.
+    void split_edge_at(std::span<const SplitPoint> points);
     void stop(StopReason reason, HalfedgeId at);
     [[nodiscard]] bool stopped() const { return stopped_; }
 

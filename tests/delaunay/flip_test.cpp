@@ -24,6 +24,7 @@ using test::check_delaunay;
 
 RemeshOptions options_of(RemeshMode mode) {
     RemeshOptions options;
+    options.effort = 0;
     options.mode = mode;
     options.max_vertices = 20000;
     return options;

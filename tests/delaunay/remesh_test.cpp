@@ -18,9 +18,16 @@ namespace {
 using test::check_delaunay;
 using test::check_preserved;
 
+/// Algorithm 1 as published; fewest_test.cpp is about the other placement.
+RemeshOptions by_shells() {
+    RemeshOptions options;
+    options.placement = SplitPlacement::shells;
+    return options;
+}
+
 /// Growth is finite but can be large: the needles of some families stop here.
 RemeshOptions bounded() {
-    RemeshOptions options;
+    RemeshOptions options = by_shells();
     options.max_vertices = 40000;
     return options;
 }
@@ -75,7 +82,7 @@ TEST_P(Preserve, DelaunayMeshesAreLeftAlone) {
     if (GetParam().has_zero_area || make_delaunay(mesh, bounded()).stop != StopReason::done)
         GTEST_SKIP() << "does not become Delaunay within the bound";
     const Mesh once = mesh;
-    const RemeshReport report = make_delaunay(mesh);
+    const RemeshReport report = make_delaunay(mesh, by_shells());
     EXPECT_EQ(report.flips, 0u);
     EXPECT_EQ(report.splits, 0u);
     EXPECT_TRUE(same_bits(once, mesh));
@@ -125,7 +132,7 @@ TEST(Pitfalls, ToleranceWouldLeaveEdgesThatAreBarelyNotDelaunay) {
     const double inside = std::nextafter(1.0, 0.0);
     Mesh mesh = mesh_of({{0, 0, 0}, {1, 0, 0}, {1, inside, 0}, {0, 1, 0}}, {0, 1, 3, 1, 2, 3});
     const bool was_delaunay = check_delaunay(mesh).empty();
-    make_delaunay(mesh);
+    make_delaunay(mesh, by_shells());
     EXPECT_FALSE(was_delaunay);
     EXPECT_EQ(check_delaunay(mesh), "");
 }
@@ -135,7 +142,7 @@ TEST(Pitfalls, CocircularEdgesStay) {
     PolygonSoup soup = make_sample("grid", 200);
     test::flip_at_random(soup, 0, 1);
     Mesh mesh(soup);
-    const RemeshReport report = make_delaunay(mesh);
+    const RemeshReport report = make_delaunay(mesh, by_shells());
     EXPECT_EQ(report.flips + report.splits, 0u);
 }
 
@@ -144,7 +151,7 @@ TEST(Pitfalls, CapsAreFlippedAwayOnBothSides) {
     Mesh mesh = mesh_of({{0, 0, 0}, {4, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 3, 0}, {2, -3, 0}},
                         {0, 1, 2, 1, 0, 3, 2, 1, 4, 0, 2, 4, 3, 0, 5, 1, 3, 5});
     const std::size_t faces = mesh.face_count();
-    const RemeshReport report = make_delaunay(mesh);
+    const RemeshReport report = make_delaunay(mesh, by_shells());
     EXPECT_EQ(report.stop, StopReason::done);
     EXPECT_GE(mesh.face_count(), faces);
     EXPECT_EQ(check_delaunay(mesh), "");
@@ -156,7 +163,7 @@ TEST(Pitfalls, CapsAreFlippedAwayOnBothSides) {
 
 TEST(Pitfalls, ACapAtTheBoundaryIsTakenOff) {
     Mesh mesh = mesh_of({{0, 0, 0}, {4, 0, 0}, {2, 0, 0}, {2, 3, 0}}, {0, 1, 2, 2, 1, 3, 0, 2, 3});
-    const RemeshReport report = make_delaunay(mesh);
+    const RemeshReport report = make_delaunay(mesh, by_shells());
     EXPECT_EQ(report.stop, StopReason::done);
     EXPECT_EQ(mesh.face_count(), 2u);
     EXPECT_EQ(validate(mesh), "");
@@ -166,7 +173,7 @@ TEST(Pitfalls, ZeroLengthEdgesPointToRepair) {
     Mesh mesh = mesh_of({{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0, 1, 2, 0, 2, 3});
     const Mesh before = mesh;
     try {
-        make_delaunay(mesh);
+        make_delaunay(mesh, by_shells());
         FAIL() << "no error";
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::zero_length_edge);
@@ -178,7 +185,7 @@ TEST(Pitfalls, ZeroLengthEdgesPointToRepair) {
 
 TEST(Pitfalls, GrowthIsBoundedOnRequest) {
     Mesh mesh(make_sample("stretched-sphere", 320));
-    RemeshOptions options;
+    RemeshOptions options = by_shells();
     options.max_vertices = mesh.vertex_count() + 5;
     const RemeshReport report = make_delaunay(mesh, options);
     EXPECT_EQ(report.stop, StopReason::max_vertices);
@@ -202,7 +209,7 @@ TEST(Pitfalls, CoplanarFoldOversArePhysical) {
     // Both faces in a plane and on the same side of their edge: flipping would change the surface.
     const Mesh before = mesh_of({{0, 0, 0}, {4, 0, 0}, {2, 1, 0}, {2, 0.5, 0}}, {0, 1, 2, 1, 0, 3});
     Mesh after = before;
-    const RemeshReport report = make_delaunay(after);
+    const RemeshReport report = make_delaunay(after, by_shells());
     EXPECT_EQ(report.stop, StopReason::done);
     EXPECT_GT(report.splits, 0u);
     EXPECT_EQ(check_preserved(before, after, report.provenance, 1e-14), "");
@@ -211,7 +218,7 @@ TEST(Pitfalls, CoplanarFoldOversArePhysical) {
 TEST(Pitfalls, TiesBetweenShellsAreSettledByRule) {
     // Length 3 * 2^k: the shells at one and at two thirds are equally near to the middle. The nearer to the end wins.
     Mesh mesh = mesh_of({{0, 0, 0}, {3, 0, 0}, {1.5, 0.5, 0}}, {0, 1, 2});
-    const RemeshReport report = make_delaunay(mesh);
+    const RemeshReport report = make_delaunay(mesh, by_shells());
     ASSERT_FALSE(report.provenance.splits.empty());
     EXPECT_EQ(mesh.points()[3], (Vec3{1, 0, 0}));
 }
@@ -238,12 +245,12 @@ TEST(Pitfalls, SquaredLengthsNeitherOverflowNorUnderflow) {
 
 TEST(Pitfalls, RightAnglesAtTheBoundaryAreDelaunay) {
     Mesh mesh = mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0, 1, 2});
-    EXPECT_EQ(make_delaunay(mesh).splits, 0u);
+    EXPECT_EQ(make_delaunay(mesh, by_shells()).splits, 0u);
 }
 
 TEST(Pitfalls, IsolatedVerticesKeepTheirPlace) {
     Mesh mesh = mesh_of({{9, 9, 9}, {0, 0, 0}, {4, 0, 0}, {8, 8, 8}, {2, 1, 0}}, {1, 2, 4});
-    make_delaunay(mesh);
+    make_delaunay(mesh, by_shells());
     EXPECT_EQ(mesh.points()[0], (Vec3{9, 9, 9}));
     EXPECT_EQ(mesh.points()[3], (Vec3{8, 8, 8}));
     EXPECT_EQ(check_delaunay(mesh), "");
@@ -251,7 +258,7 @@ TEST(Pitfalls, IsolatedVerticesKeepTheirPlace) {
 
 TEST(Remesh, SplitsLieOnShellsAboutAnInputVertex) {
     Mesh mesh(make_sample("saddle", 200));
-    const RemeshReport report = make_delaunay(mesh);
+    const RemeshReport report = make_delaunay(mesh, by_shells());
     ASSERT_GT(report.splits, 0u);
     std::size_t on_shell = 0;
     for (const SplitPoint& split : report.provenance.splits) {
@@ -272,7 +279,7 @@ TEST(Remesh, CoordinatesThatCanNotBeSplitStopTheRun) {
     // An obtuse triangle a few denormals wide: no double lies between the ends of its long edge at the shells.
     const double tiny = 5e-324;
     Mesh mesh = mesh_of({{0, 0, 0}, {3 * tiny, 0, 0}, {tiny, tiny, 0}}, {0, 1, 2});
-    RemeshOptions options;
+    RemeshOptions options = by_shells();
     const RemeshReport report = make_delaunay(mesh, options);
     EXPECT_EQ(validate(mesh), "");
     if (report.stop == StopReason::done) {
@@ -291,7 +298,7 @@ TEST(Remesh, CancellingAtAnyStepLeavesAValidMesh) {
             if (phase == "remesh" && fraction >= when) running->cancel();
         });
         running = &context;
-        const RemeshReport report = make_delaunay(mesh, {}, &context);
+        const RemeshReport report = make_delaunay(mesh, by_shells(), &context);
         EXPECT_EQ(report.stop, StopReason::cancelled) << when;
         EXPECT_EQ(validate(mesh), "");
         EXPECT_NE(check_delaunay(mesh), "");
@@ -301,19 +308,19 @@ TEST(Remesh, CancellingAtAnyStepLeavesAValidMesh) {
 TEST(Remesh, RefusesOptionsOutOfRange) {
     Mesh mesh = mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0, 1, 2});
     for (const double unit : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
-        RemeshOptions options;
+        RemeshOptions options = by_shells();
         options.shell_unit_abs = unit;
         EXPECT_THROW(make_delaunay(mesh, options), Error) << unit;
     }
     Mesh doubles = mesh_of({{0, 0, 0}, {1, 0, 0}, {0.1, 1, 0}}, {0, 1, 2});
-    RemeshOptions options;
+    RemeshOptions options = by_shells();
     options.precision = Precision::float32;
     EXPECT_THROW(make_delaunay(doubles, options), Error);
 }
 
 TEST(Remesh, AnEmptyMeshIsDelaunay) {
     Mesh mesh;
-    EXPECT_EQ(make_delaunay(mesh).stop, StopReason::done);
+    EXPECT_EQ(make_delaunay(mesh, by_shells()).stop, StopReason::done);
 }
 
 }  // namespace

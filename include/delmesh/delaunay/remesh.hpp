@@ -34,6 +34,12 @@ enum class FlipFinish {
     literal,        ///< Algorithm 2 as published: the surface is kept from here on, by Algorithm 1
 };
 
+/// Mode preserve: where edges are split.
+enum class SplitPlacement {
+    fewest,  ///< where a search finds that few points are enough; never more than `shells`. See docs/fewest.md
+    shells,  ///< at concentric shells: Algorithm 1 as published
+};
+
 /// Why a run ended. Whatever the reason, the mesh is valid and every vertex and face of it is accounted for.
 enum class StopReason {
     done,          ///< every edge is Delaunay
@@ -46,6 +52,7 @@ enum class StopReason {
 [[nodiscard]] std::span<const std::string_view> choices(RemeshMode);
 [[nodiscard]] std::span<const std::string_view> choices(FlipOrder);
 [[nodiscard]] std::span<const std::string_view> choices(FlipFinish);
+[[nodiscard]] std::span<const std::string_view> choices(SplitPlacement);
 
 struct RemeshOptions {
     RemeshMode mode = RemeshMode::preserve;
@@ -59,6 +66,11 @@ struct RemeshOptions {
     bool no_foldover = false;
     FlipOrder order = FlipOrder::worst;
     FlipFinish finish = FlipFinish::keep_flipping;
+    SplitPlacement placement = SplitPlacement::fewest;
+    /// Placement fewest: how long to search. 0: hardly at all; each step more doubles the work.
+    std::size_t effort = 3;
+    /// Placement fewest: other seeds find other, about equally good places.
+    std::size_t seed = 1;
     /// The unit of the concentric shells: split vertices lie at the distance 2^k * shell_unit_abs from an end of
     /// their edge. In units of the coordinates, above 0. The paper's delta.
     double shell_unit_abs = 1;
@@ -81,6 +93,12 @@ struct RemeshOptions {
         visit(self.order, OptionInfo{.name = "order", .help = "in which order edges are flipped"});
         visit(self.finish,
               OptionInfo{.name = "finish", .help = "mode flip: what to do when nothing can be flipped any more"});
+        visit(self.placement, OptionInfo{.name = "placement", .help = "mode preserve: where edges are split"});
+        visit(self.effort, OptionInfo{.name = "effort",
+                                      .lowest = 0,
+                                      .highest = 12,
+                                      .help = "placement fewest: how long to search; each step doubles the work"});
+        visit(self.seed, OptionInfo{.name = "seed", .lowest = 0, .help = "placement fewest: seed of the search"});
         visit(self.shell_unit_abs,
               OptionInfo{.name = "shell-unit",
                          .unit = "abs",
@@ -114,6 +132,8 @@ struct RemeshReport {
     /// Mode preserve: edges that had to be split after planar flips alone: no method that keeps the surface adds fewer
     /// vertices.
     std::size_t lower_bound = 0;
+    /// Placement fewest: what placement shells would have split; 0 where that was not found out.
+    std::size_t splits_by_shells = 0;
     /// The edge that stopped the run, where one did.
     std::optional<EdgeId> witness;
     Provenance provenance;

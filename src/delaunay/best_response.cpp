@@ -1,0 +1,434 @@
+#include "delaunay/best_response.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace delmesh {
+namespace {
+
+/// New points keep this distance from violations, relative to the cotangents involved: aligned points would make exact
+/// ties, and rounding would break them.
+constexpr double margin_interior = 4e-10;
+constexpr double margin_boundary = 2e-10;
+/// Points this near to the line of a side do not see it.
+constexpr double flat = 1e-14;
+constexpr double centre_share = 0.4;
+constexpr double align_share = 0.5;
+constexpr int max_newton = 60;
+constexpr std::size_t max_chain = 64;
+constexpr std::size_t many_sides = 8;
+/// What a response costs beside the evaluations that are counted one by one.
+constexpr std::size_t response_work = 100;
+
+/// How narrow a place is, as a cost: a point that has to be exact drifts and is not worth much.
+int narrowness(double from, double to, double begin, double end) {
+    const double middle = 0.5 * (from + to);
+    const double room = (to - from) / std::min(middle - begin, end - middle);
+    if (room > 1e-3) return 0;
+    return room > 1e-6 ? 4 : 9;
+}
+
+}  // namespace
+
+// --- what the edge itself needs ---
+
+/// Lists what both sides see, since many questions about it follow.
+void BestResponse::look(std::uint32_t e) {
+    const FacetLayout& layout = model_.layout();
+    for (int k = 0; k < 2; ++k) {
+        View& view = views_[k];
+        view.side = layout.edge(e).side[k];
+        view.points.clear();
+        view.listed = false;
+        if (view.side == SplitModel::none) continue;
+        const Side& side = layout.side(view.side);
+        const Facet& facet = layout.facet(side.facet);
+        if (!facet.single) continue;
+        view.listed = true;
+        view.points.push_back(side.apex);
+        for (std::uint32_t s = facet.first_side; s < facet.first_side + 3; ++s)
+            if (s != view.side) look_at(side, layout.side(s), view.points);
+    }
+}
+
+void BestResponse::look_at(const Side& side, const Side& other, std::vector<Point2>& points) const {
+    const std::size_t n = model_.point_count(other.edge);
+    if (n == 0) return;
+    const Point2 p = side.to_frame(other.start);
+    const Point2 d = side.turn(other.along);
+    for (const Part& part : model_.parts(other.edge).first(n)) {
+        const Point2 q = p + part.end * d;
+        if (q.y > 0) points.push_back(q);
+    }
+}
+
+Point2 BestResponse::nearest(const View& view, double a, double b, double& cot) const {
+    if (!view.listed) {
+        const Contact contact = model_.nearest(view.side, a, b);
+        cot = contact.cot;
+        return contact.at;
+    }
+    model_.count_work(view.points.size());
+    Point2 best = view.points.front();
+    cot = cot_of(a, b, best);
+    for (std::size_t i = 1; i < view.points.size(); ++i) {
+        const double candidate = cot_of(a, b, view.points[i]);
+        if (candidate >= cot) continue;
+        cot = candidate;
+        best = view.points[i];
+    }
+    return best;
+}
+
+/// The length of the part [a,b] if it is Delaunay, else the length at which the points that it sees now would let it
+/// be, with one end fixed (a if `up`). For a point at distance x along the edge from the fixed end and y above it, the
+/// cotangent of a part of length l is (x^2 + y^2 - x l) / (y l).
+double BestResponse::step(double a, double b, bool up) const {
+    double value = 0;
+    double size = 0;
+    double constant = 0;
+    double slope = 0;
+    bool boundary = false;
+    for (const View& view : views_) {
+        if (view.side == SplitModel::none) {
+            boundary = true;
+            continue;
+        }
+        double cot = 0;
+        const Point2 p = nearest(view, a, b, cot);
+        const double x = up ? p.x - a : b - p.x;
+        value += cot;
+        size += std::fabs(cot);
+        constant += x * x / p.y + p.y;
+        slope += x / p.y;
+    }
+    if (value >= (boundary ? margin_boundary : 0.5 * margin_interior * size)) return b - a;
+    const double length = constant / slope * (1 - 1e-9);
+    return length < b - a ? length : (b - a) * (1 - 1e-7);
+}
+
+/// The farthest end of a part that starts at `from` and is Delaunay. Newton's method on a concave function.
+double BestResponse::reach_up(double from) const {
+    double end = high_;
+    for (int i = 0; i < max_newton && end > from; ++i) {
+        const double length = step(from, end, true);
+        if (length == end - from) return end;
+        end = from + length;
+    }
+    return end;
+}
+
+double BestResponse::reach_down(double from) const {
+    double start = low_;
+    for (int i = 0; i < max_newton && start < from; ++i) {
+        const double length = step(start, from, false);
+        if (length == from - start) return start;
+        start = from - length;
+    }
+    return start;
+}
+
+// --- what the other edges allow ---
+
+void BestResponse::block(std::uint32_t e) {
+    events_.clear();
+    blocked_.clear();
+    for (const std::uint32_t own : model_.layout().edge(e).side) {
+        if (own == SplitModel::none) continue;
+        const Facet& facet = model_.layout().facet(model_.layout().side(own).facet);
+        for (std::uint32_t s = facet.first_side; s < facet.first_side + facet.side_count; ++s)
+            if (model_.layout().side(s).edge != e) block_by_side(own, s);
+    }
+    find_cells();
+}
+
+/// A point (x,y) makes a part [a,b] of side s bad where (a-x)(b-x) + y^2 < level * y * (b-a): inside a circle, so in an
+/// interval of the edge.
+void BestResponse::block_by_side(std::uint32_t own_side, std::uint32_t s) {
+    const Side& own = model_.layout().side(own_side);
+    const Side& side = model_.layout().side(s);
+    const Point2 p = side.to_frame(own.start);
+    const Point2 d = side.turn(own.along);
+    if (p.y <= flat && p.y + d.y <= flat) return;
+    const FacetLayout::Edge& other = model_.layout().edge(side.edge);
+    const int k = other.side[0] == s ? 0 : 1;
+    const bool boundary = other.side[1 - k] == SplitModel::none;
+    const int weight = model_.weight(side.edge);
+    const double length2 = dot(d, d);
+    const auto parts = model_.parts(side.edge);
+    model_.count_work(parts.size());
+    double a = 0;
+    for (const Part& part : parts) {
+        const double start = a;
+        const double b = part.end;
+        a = b;
+        const double facing = part.cot[1 - k];
+        const double level = boundary ? margin_boundary : -facing + margin_interior * std::fabs(facing);
+        const double linear = dot(p, d) - 0.5 * ((start + b) * d.x + level * (b - start) * d.y);
+        const double constant = (start - p.x) * (b - p.x) + p.y * p.y - level * (b - start) * p.y;
+        const double discriminant = linear * linear - length2 * constant;
+        if (!(discriminant > 0)) continue;
+        const double root = linear > 0 ? -linear - std::sqrt(discriminant) : -linear + std::sqrt(discriminant);
+        const double from = (linear > 0 ? root / length2 : constant / root) - 1e-13;
+        const double to = (linear > 0 ? constant / root : root / length2) + 1e-13;
+        if (to <= low_ || from >= high_) continue;
+        if (!model_.reaches(s, start, b, level, own_side)) continue;
+        blocked_.push_back({from, to, weight});
+        events_.push_back({std::max(from, low_), weight});
+        if (to < high_) events_.push_back({to, -weight});
+    }
+}
+
+void BestResponse::find_cells() {
+    std::sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) { return a.at < b.at; });
+    cells_.clear();
+    double last = low_;
+    int weight = 0;
+    for (const Event& event : events_) {
+        if (event.at > last) {
+            cells_.push_back({last, event.at, weight});
+            last = event.at;
+        }
+        weight += event.weight;
+    }
+    if (last < high_) cells_.push_back({last, high_, weight});
+}
+
+/// What a point at t makes bad; less where it does so by a hair, since that is easy to mend.
+int BestResponse::soft_weight(double t) const {
+    double sum = 0;
+    for (const Cell& b : blocked_) {
+        if (t <= b.begin || t >= b.end) continue;
+        const double depth = std::min(t - b.begin, b.end - t) / (b.end - b.begin);
+        sum += b.weight * std::min(1.0, 0.5 + 2 * depth);
+    }
+    return static_cast<int>(sum);
+}
+
+// --- promising places ---
+
+/// Where a thread of points over several edges would go on: at the same distance from the corner where two edges meet
+/// (so threads around a sharp corner close), and parallel to the third side of a triangle.
+void BestResponse::align(std::uint32_t e) {
+    aligned_.clear();
+    for (const std::uint32_t own : model_.layout().edge(e).side) {
+        if (own == SplitModel::none) continue;
+        const Facet& facet = model_.layout().facet(model_.layout().side(own).facet);
+        if (facet.side_count > many_sides) continue;
+        for (std::uint32_t s = facet.first_side; s < facet.first_side + facet.side_count; ++s)
+            if (model_.layout().side(s).edge != e) align_with_side(model_.layout().side(own), model_.layout().side(s));
+    }
+    std::sort(aligned_.begin(), aligned_.end());
+}
+
+void BestResponse::align_with_side(const Side& own, const Side& other) {
+    const std::size_t n = model_.point_count(other.edge);
+    if (n == 0) return;
+    const Point2 u = (1 / std::sqrt(dot(own.along, own.along))) * own.along;
+    const Point2 v = (1 / std::sqrt(dot(other.along, other.along))) * other.along;
+    const Point2 w = dot(u, v) < 0 ? u - v : u + v;
+    const double inverse = 1 / dot(own.along, w);
+    const Facet& facet = model_.layout().facet(own.facet);
+    Point2 third{};
+    if (facet.single)
+        for (std::uint32_t s = facet.first_side; s < facet.first_side + 3; ++s)
+            if (model_.layout().side(s).edge != own.edge && model_.layout().side(s).edge != other.edge)
+                third = model_.layout().side(s).y_row;
+    const double third_inverse = 1 / dot(own.along, third);
+    const auto take = [&](double t) {
+        if (t > low_ && t < high_) aligned_.push_back(t);
+    };
+    for (const Part& part : model_.parts(other.edge).first(n)) {
+        const Point2 p = other.at(part.end) - own.start;
+        take(dot(p, w) * inverse);
+        if (facet.single) take(dot(p, third) * third_inverse);
+    }
+}
+
+/// Places near the ends of a cell, at a random scale: what is blocked there is blocked by a hair.
+template <class Take>
+void BestResponse::near_ends(double begin, double end, Take&& take) {
+    const double distance = 0.2 * std::ldexp(end - begin, -static_cast<int>(random_.below(16)));
+    take(begin + distance);
+    take(end - distance);
+}
+
+double BestResponse::pick(double low, double high) {
+    return low + (high - low) * (random_.chance(centre_share) ? 0.5 : random_.uniform());
+}
+
+// --- the choice ---
+
+std::span<const double> BestResponse::solve(std::uint32_t e, std::size_t first, std::size_t last) {
+    chosen_.clear();
+    low_ = model_.part_start(e, first);
+    high_ = model_.parts(e)[last].end;
+    model_.count_work(response_work);
+    look(e);
+    const double up = reach_up(low_);
+    if (up >= high_ && last > first) return chosen_;
+    block(e);
+    aligned_.clear();
+    if (random_.chance(align_share)) align(e);
+    const double down = reach_down(high_);
+    if (!(down < up && place_one(down, up))) place_many();
+    return chosen_;
+}
+
+/// A single point between low and high where it blocks next to nothing.
+bool BestResponse::place_one(double low, double high) {
+    constexpr int too_much = 15;
+    int least = too_much - 1;
+    std::size_t count = 0;
+    double at = 0;
+    double width = 0;
+    const bool by_width = random_.chance(0.5);
+    for (const Cell& cell : cells_) {
+        const double from = std::max(cell.begin, low);
+        const double to = std::min(cell.end, high);
+        if (!(from < to) || cell.weight > least) continue;
+        const int weight = cell.weight + narrowness(from, to, low_, high_);
+        if (weight > least) continue;
+        if (weight < least) {
+            least = weight;
+            count = 0;
+            width = 0;
+        }
+        ++count;
+        width += to - from;
+        if (by_width ? random_.uniform() * width < to - from : random_.below(count) == 0) at = pick(from, to);
+    }
+    std::size_t cell = 0;
+    std::size_t aligned_count = 0;
+    for (const double t : aligned_) {
+        if (t <= low || t >= high) continue;
+        while (cell + 1 < cells_.size() && cells_[cell].end <= t) ++cell;
+        if (cells_[cell].weight > least) continue;
+        if (cells_[cell].weight < least) aligned_count = 0;
+        least = cells_[cell].weight;
+        if (random_.below(++aligned_count) == 0) at = t;
+    }
+    if (count + aligned_count == 0) return false;
+    chosen_.push_back(at);
+    return true;
+}
+
+/// Several points: the cheapest chain over some places in each cell.
+void BestResponse::place_many() {
+    add_candidates();
+    weigh_candidates();
+    if (!cheapest_chain()) plain_chain();
+}
+
+void BestResponse::add_candidates() {
+    candidates_.clear();
+    const auto add = [&](double t) { candidates_.push_back({t}); };
+    const int extra = cells_.size() < 12 ? 2 : cells_.size() < 40 ? 1 : 0;
+    for (const Cell& cell : cells_) {
+        add(pick(cell.begin, cell.end));
+        if (cell.weight > 0) near_ends(cell.begin, cell.end, add);
+        for (int i = 0; i < extra; ++i) add(cell.begin + (cell.end - cell.begin) * random_.uniform());
+    }
+    for (const double t : aligned_) add(t);
+    const double least_step = 1e-12 * (high_ - low_);
+    double at = low_;
+    for (std::size_t i = 0; i < max_chain; ++i) {
+        const double next = reach_up(at);
+        if (!(next > at + least_step) || next >= high_) break;
+        add(at = next);
+    }
+    at = high_;
+    for (std::size_t i = 0; i < max_chain; ++i) {
+        const double next = reach_down(at);
+        if (!(next < at - least_step) || next <= low_) break;
+        add(at = next);
+    }
+}
+
+void BestResponse::weigh_candidates() {
+    std::sort(candidates_.begin(), candidates_.end(),
+              [](const Candidate& a, const Candidate& b) { return a.at < b.at; });
+    const auto out = [&](const Candidate& c) { return c.at <= low_ || c.at >= high_; };
+    candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(), out), candidates_.end());
+    const auto same = [](const Candidate& a, const Candidate& b) { return a.at == b.at; };
+    candidates_.erase(std::unique(candidates_.begin(), candidates_.end(), same), candidates_.end());
+    model_.count_work(candidates_.size());
+    for (Candidate& candidate : candidates_) candidate.weight = soft_weight(candidate.at);
+}
+
+/// The cheapest way from low to high in Delaunay steps; fills `chosen_`.
+bool BestResponse::cheapest_chain() {
+    constexpr int never = std::numeric_limits<int>::max() / 2;
+    const double first_reach = reach_up(low_);
+    candidates_.push_back({high_, -point_cost});
+    for (std::size_t j = 0; j < candidates_.size(); ++j) {
+        Candidate& here = candidates_[j];
+        here.cost = never;
+        here.before = -1;
+        here.reach = -1;
+        const int own = point_cost + here.weight;
+        if (here.at <= first_reach && j + 1 < candidates_.size()) here.cost = own;
+        for (std::size_t i = 0; i < j; ++i) {
+            Candidate& before = candidates_[i];
+            if (before.cost + own >= here.cost) continue;
+            if (before.reach < 0) before.reach = reach_up(before.at);
+            if (before.reach < here.at) continue;
+            here.cost = before.cost + own;
+            here.before = static_cast<int>(i);
+        }
+    }
+    if (candidates_.back().cost >= never) return false;
+    for (int i = candidates_.back().before; i >= 0; i = candidates_[i].before) chosen_.push_back(candidates_[i].at);
+    std::reverse(chosen_.begin(), chosen_.end());
+    return true;
+}
+
+/// As few points as the edge itself needs, whatever they block.
+void BestResponse::plain_chain() {
+    double at = low_;
+    for (std::size_t i = 0; i < max_chain; ++i) {
+        const double reach = reach_up(at);
+        if (reach >= high_) return;
+        const double next = at + (reach - at) * 0.999;
+        if (!(next > at)) return;
+        chosen_.push_back(at = next);
+    }
+}
+
+double BestResponse::halve(std::uint32_t e, std::size_t first) {
+    low_ = model_.part_start(e, first);
+    high_ = model_.parts(e)[first].end;
+    chosen_.clear();
+    look(e);
+    const double up = reach_up(low_);
+    const double down = reach_down(high_);
+    const double edge = 1e-6 * (high_ - low_);
+    const double from = std::max(std::min(up, down), low_ + edge);
+    const double to = std::min(std::max(up, down), high_ - edge);
+    block(e);
+    align(e);
+    if (from < to && place_one(from, to)) return chosen_.front();
+    int least = std::numeric_limits<int>::max();
+    std::size_t count = 0;
+    double at = 0.5 * (low_ + high_);
+    const auto consider = [&](double t) {
+        if (t <= from || t >= to) return;
+        const int weight = soft_weight(t);
+        if (weight > least) return;
+        if (weight < least) count = 0;
+        least = weight;
+        if (random_.below(++count) == 0) at = t;
+    };
+    for (const Cell& cell : cells_) {
+        const double begin = std::max(cell.begin, from);
+        const double end = std::min(cell.end, to);
+        if (!(begin < end)) continue;
+        consider(pick(begin, end));
+        near_ends(begin, end, consider);
+    }
+    for (const double t : aligned_) consider(t);
+    return at;
+}
+
+}  // namespace delmesh

@@ -1,0 +1,90 @@
+#pragma once
+// The best points of one edge while all other edges stay as they are.
+
+#include "delaunay/random.hpp"
+#include "delaunay/split_model.hpp"
+
+#include <span>
+#include <vector>
+
+namespace delmesh {
+
+/// Finds new points for a stretch of an edge such that all its parts become Delaunay, with the least cost: 10 for each
+/// point, and for each part of another edge that a point makes bad the weight of that edge. Among equal places it takes
+/// a random one. Keeps its buffers from call to call.
+class BestResponse {
+public:
+    BestResponse(SplitModel& model, Random& random) : model_(model), random_(random) {}
+
+    /// New points to put in place of the points first ... last-1 of edge e, which must be prepared. May be none. An
+    /// empty stretch (first == last) asks for one point or more in part `first`, whether that is bad or not.
+    [[nodiscard]] std::span<const double> solve(std::uint32_t e, std::size_t first, std::size_t last);
+
+    /// One point for the part `first`, even if no point makes both halves Delaunay.
+    [[nodiscard]] double halve(std::uint32_t e, std::size_t first);
+
+    static constexpr int point_cost = 10;
+
+private:
+    struct Event {
+        double at = 0;
+        int weight = 0;
+    };
+    /// A stretch of the edge and the weight of what a point there makes bad.
+    struct Cell {
+        double begin = 0;
+        double end = 0;
+        int weight = 0;
+    };
+    struct Candidate {
+        double at = 0;
+        int weight = 0;
+        int cost = 0;
+        int before = 0;
+        double reach = 0;
+    };
+    /// The points that one side of the edge can see, in its frame; for single triangles only.
+    struct View {
+        std::uint32_t side = SplitModel::none;
+        bool listed = false;
+        std::vector<Point2> points;
+    };
+
+    void look(std::uint32_t e);
+    void look_at(const Side& side, const Side& other, std::vector<Point2>& points) const;
+    [[nodiscard]] Point2 nearest(const View& view, double a, double b, double& cot) const;
+    [[nodiscard]] double step(double a, double b, bool up) const;
+    [[nodiscard]] double reach_up(double from) const;
+    [[nodiscard]] double reach_down(double from) const;
+
+    void block(std::uint32_t e);
+    void block_by_side(std::uint32_t own_side, std::uint32_t s);
+    void find_cells();
+    [[nodiscard]] int soft_weight(double t) const;
+
+    void align(std::uint32_t e);
+    void align_with_side(const Side& own, const Side& other);
+    template <class Take>
+    void near_ends(double begin, double end, Take&& take);
+    [[nodiscard]] double pick(double low, double high);
+    [[nodiscard]] bool place_one(double low, double high);
+    void place_many();
+    void add_candidates();
+    void weigh_candidates();
+    [[nodiscard]] bool cheapest_chain();
+    void plain_chain();
+
+    SplitModel& model_;
+    Random& random_;
+    double low_ = 0;  ///< the stretch that is being solved
+    double high_ = 1;
+    std::array<View, 2> views_;
+    std::vector<Cell> blocked_;  ///< one for each part of another edge, with its weight
+    std::vector<Event> events_;
+    std::vector<Cell> cells_;
+    std::vector<double> aligned_;
+    std::vector<Candidate> candidates_;
+    std::vector<double> chosen_;
+};
+
+}  // namespace delmesh

@@ -1,0 +1,119 @@
+#pragma once
+// Planar facets laid out in the plane, one at a time and only where they are asked for.
+
+#include "delaunay/id_map.hpp"
+#include "delaunay/marked_mesh.hpp"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace delmesh {
+
+struct Point2 {
+    double x = 0;
+    double y = 0;
+};
+
+constexpr Point2 operator-(Point2 a, Point2 b) {
+    return {a.x - b.x, a.y - b.y};
+}
+constexpr Point2 operator+(Point2 a, Point2 b) {
+    return {a.x + b.x, a.y + b.y};
+}
+constexpr Point2 operator*(double s, Point2 a) {
+    return {s * a.x, s * a.y};
+}
+constexpr double dot(Point2 a, Point2 b) {
+    return a.x * b.x + a.y * b.y;
+}
+
+/// A facet's view of one of its physical edges. The edge runs from its smaller vertex (parameter 0) to the larger one
+/// (parameter 1). In the *frame* of the side the edge is the interval [0,1] of the x axis and the facet lies above it.
+struct Side {
+    Point2 start;   ///< of the edge, in the plane of the facet
+    Point2 along;   ///< from start to end
+    Point2 x_row;   ///< the linear map into the frame
+    Point2 y_row;   ///<
+    Point2 apex;    ///< the corner opposite to the edge in its triangle, in the frame
+    Point2 corner;  ///< the same corner in the plane of the facet
+    std::uint32_t edge = 0;
+    std::uint32_t facet = 0;
+    std::uint32_t triangle = 0;  ///< the one at the edge; 0 where the facet is a single triangle
+
+    [[nodiscard]] Point2 at(double t) const { return start + t * along; }
+    [[nodiscard]] Point2 to_frame(Point2 p) const { return turn(p - start); }
+    [[nodiscard]] Point2 turn(Point2 d) const { return {dot(x_row, d), dot(y_row, d)}; }
+};
+
+/// A triangle of a facet that has several.
+struct FacetTriangle {
+    std::array<std::uint32_t, 3> corner{};
+    std::array<std::uint32_t, 3> beyond{};  ///< across the side corner[i], corner[i+1]: a triangle, or a side
+    std::array<bool, 3> is_side{};
+};
+
+struct Facet {
+    std::uint32_t first_side = 0;
+    std::uint32_t side_count = 0;
+    bool single = true;  ///< one triangle: `side_count` is 3, in the order of its half-edges
+};
+
+/// Lays out facets of a mesh whose planar edges are Delaunay within their facets. Facets, sides and edges are numbered
+/// in the order in which they are asked for. The mesh must not change. Memory: what was asked for, no more.
+class FacetLayout {
+public:
+    static constexpr std::uint32_t none = IdMap::none;
+
+    struct Edge {
+        HalfedgeId halfedge;                            ///< the one that names the edge
+        std::array<std::uint32_t, 2> side{none, none};  ///< 0: of the half-edge from the smaller vertex
+        bool is_delaunay = true;                        ///< exactly, before any split
+        bool is_usable = true;                          ///< both facets could be laid out in doubles
+    };
+
+    explicit FacetLayout(const MarkedMesh& marked);
+
+    /// The facet of a face, laid out if it was not. Cost: O(n log n) for a new facet of n triangles.
+    std::uint32_t facet_of(FaceId f);
+    /// The edge with the facets at both of its sides.
+    std::uint32_t edge_of(HalfedgeId h);
+    /// Lays out the facets at both sides of an edge that a facet has named.
+    void complete(std::uint32_t edge);
+
+    [[nodiscard]] const MarkedMesh& marked() const { return marked_; }
+    [[nodiscard]] std::size_t facet_count() const { return facets_.size(); }
+    [[nodiscard]] std::size_t edge_count() const { return edges_.size(); }
+    [[nodiscard]] const Edge& edge(std::uint32_t e) const { return edges_[e]; }
+    [[nodiscard]] const Side& side(std::uint32_t s) const { return sides_[s]; }
+    [[nodiscard]] const Facet& facet(std::uint32_t f) const { return facets_[f]; }
+    [[nodiscard]] std::size_t triangle_count() const { return triangles_.size(); }
+    [[nodiscard]] const FacetTriangle& triangle(std::uint32_t t) const { return triangles_[t]; }
+    [[nodiscard]] Point2 corner(std::uint32_t c) const { return corners_[c]; }
+
+private:
+    std::uint32_t name_edge(HalfedgeId h);
+    void gather(FaceId f, std::uint32_t facet);
+    void lay_corners();
+    void add_side(HalfedgeId h, std::uint32_t facet, std::uint32_t triangle, std::array<Point2, 3> points);
+    void add_triangle(FaceId f, std::uint32_t facet, std::uint32_t first_triangle);
+    [[nodiscard]] Vec3 scaled(VertexId v) const;
+    [[nodiscard]] std::uint32_t corner_of(VertexId v) const;
+
+    const MarkedMesh& marked_;
+    const Mesh& mesh_;
+    double scale_ = 1;
+    double second_scale_ = 1;
+    IdMap facet_of_face_;
+    IdMap edge_of_halfedge_;
+    std::vector<Facet> facets_;
+    std::vector<Side> sides_;
+    std::vector<Edge> edges_;
+    std::vector<FacetTriangle> triangles_;
+    std::vector<Point2> corners_;
+    std::vector<FaceId> faces_;                                      ///< of the facet that is being made, sorted
+    std::vector<std::pair<VertexId, std::uint32_t>> local_corners_;  ///< the same, sorted by vertex
+};
+
+}  // namespace delmesh

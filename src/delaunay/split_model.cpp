@@ -1,0 +1,382 @@
+#include "delaunay/split_model.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace delmesh {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Points this near to the line of a side do not see it.
+constexpr double flat = 1e-14;
+/// Ties are no violations: what the model can not tell is left to the exact signs at the end.
+constexpr double tie_interior = 1e-13;
+constexpr double tie_boundary = 1e-12;
+constexpr std::size_t few = 6;
+
+/// The parameter of the point of the line p + u d that sees [a,b] under the largest angle.
+double largest_angle_on_line(double a, double b, Point2 p, Point2 d) {
+    const double middle = 0.5 * (a + b);
+    const double half = 0.5 * (b - a);
+    const double length2 = dot(d, d);
+    const Point2 c{p.x - middle, p.y};
+    const double linear = dot(c, d);
+    const double constant = dot(c, c) - half * half;
+    if (std::fabs(d.y) < 1e-14 * std::sqrt(length2)) return -linear / length2;
+    const double discriminant = p.y * p.y - d.y * (2 * linear * p.y - constant * d.y) / length2;
+    return (std::sqrt(std::max(discriminant, 0.0)) - p.y) / d.y;
+}
+
+}  // namespace
+
+// --- storage ---
+
+void SplitModel::grow_states() {
+    if (states_.size() < layout_.edge_count()) states_.resize(layout_.edge_count());
+}
+
+std::uint32_t SplitModel::allocate(std::uint8_t size_class) {
+    auto& list = free_[size_class];
+    if (!list.empty()) {
+        const std::uint32_t first = list.back();
+        list.pop_back();
+        return first;
+    }
+    const auto first = static_cast<std::uint32_t>(pool_.size());
+    pool_.resize(pool_.size() + (std::size_t{1} << size_class));
+    return first;
+}
+
+void SplitModel::make(std::uint32_t e) {
+    grow_states();
+    if (states_[e].made) return;
+    layout_.complete(e);
+    grow_states();
+    Part part;
+    for (int k = 0; k < 2; ++k) {
+        const std::uint32_t s = layout_.edge(e).side[k];
+        if (s == none) continue;
+        const Contact contact = nearest(s, 0, 1);
+        part.cot[k] = contact.cot;
+        part.culprit[k] = contact.edge;
+    }
+    State& state = states_[e];
+    state.made = true;
+    state.count = 1;
+    state.first = allocate(0);
+    state.movable = state.movable && layout_.edge(e).is_usable;
+    pool_[state.first] = part;
+}
+
+void SplitModel::prepare(std::uint32_t e) {
+    if (e < states_.size() && states_[e].prepared) return;
+    make(e);
+    const std::array<std::uint32_t, 2> sides = layout_.edge(e).side;  // a copy, as the layout grows
+    for (const std::uint32_t s : sides) {
+        if (s == none) continue;
+        const Facet facet = layout_.facet(layout_.side(s).facet);
+        for (std::uint32_t i = 0; i < facet.side_count; ++i) make(layout_.side(facet.first_side + i).edge);
+    }
+    states_[e].prepared = true;
+}
+
+// --- transactions ---
+
+void SplitModel::begin() {
+    in_transaction_ = true;
+    ++transaction_;
+}
+
+void SplitModel::save(std::uint32_t e) {
+    State& state = states_[e];
+    if (!in_transaction_ || state.transaction == transaction_) return;
+    state.transaction = transaction_;
+    saved_.push_back({e, state.first, state.count, state.size_class});
+    const std::uint32_t copy = allocate(state.size_class);
+    std::copy_n(pool_.begin() + state.first, state.count, pool_.begin() + copy);
+    state.first = copy;
+}
+
+void SplitModel::add_weight(std::uint32_t e, int more) {
+    if (states_[e].weight == base_weight) touched_weights_.push_back(e);
+    states_[e].weight += more;
+}
+
+void SplitModel::commit() {
+    for (const Saved& saved : saved_) release(saved.first, saved.size_class);
+    saved_.clear();
+    for (const std::uint32_t e : touched_weights_) states_[e].weight = base_weight;
+    touched_weights_.clear();
+    in_transaction_ = false;
+}
+
+void SplitModel::rollback() {
+    for (const Saved& saved : saved_) {
+        State& state = states_[saved.edge];
+        points_ += saved.count;
+        points_ -= state.count;
+        release(state.first, state.size_class);
+        state.first = saved.first;
+        state.count = saved.count;
+        state.size_class = saved.size_class;
+    }
+    saved_.clear();
+    for (const std::uint32_t e : suspects_) states_[e].suspected = false;
+    suspects_.clear();
+    commit();
+}
+
+// --- judgement ---
+
+bool SplitModel::is_bad(std::uint32_t e, const Part& part) const {
+    const FacetLayout::Edge& edge = layout_.edge(e);
+    if (states_[e].count == 1 && part.culprit[0] == none && part.culprit[1] == none) return !edge.is_delaunay;
+    const double sum = part.cot[0] + part.cot[1];
+    if (edge.side[0] == none || edge.side[1] == none) return sum < -tie_boundary;
+    return sum < -tie_interior * (std::fabs(part.cot[0]) + std::fabs(part.cot[1]));
+}
+
+int SplitModel::first_bad(std::uint32_t e) const {
+    const auto all = parts(e);
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (is_bad(e, all[i])) return static_cast<int>(i);
+    return -1;
+}
+
+void SplitModel::add_suspect(std::uint32_t e) {
+    if (states_[e].suspected || states_[e].given_up) return;
+    states_[e].suspected = true;
+    suspects_.push_back(e);
+}
+
+void SplitModel::drop_suspect(std::size_t i) {
+    states_[suspects_[i]].suspected = false;
+    suspects_[i] = suspects_.back();
+    suspects_.pop_back();
+}
+
+// --- changes ---
+
+void SplitModel::replace_parts(std::uint32_t e, std::size_t first, std::size_t last, std::span<const double> points) {
+    const FacetLayout::Edge& edge = layout_.edge(e);
+    State& state = states_[e];
+    const auto old = parts(e);
+    scratch_.assign(old.begin(), old.begin() + static_cast<std::ptrdiff_t>(first));
+    double start = part_start(e, first);
+    for (std::size_t i = 0; i <= points.size(); ++i) {
+        Part part;
+        part.end = i < points.size() ? points[i] : old[last].end;
+        for (int k = 0; k < 2; ++k) {
+            if (edge.side[k] == none) continue;
+            const Contact contact = nearest(edge.side[k], start, part.end);
+            part.cot[k] = contact.cot;
+            part.culprit[k] = contact.edge;
+        }
+        start = part.end;
+        scratch_.push_back(part);
+    }
+    scratch_.insert(scratch_.end(), old.begin() + static_cast<std::ptrdiff_t>(last) + 1, old.end());
+    const auto size_class = static_cast<std::uint8_t>(std::bit_width(scratch_.size() - 1));
+    if (size_class != state.size_class) {
+        release(state.first, state.size_class);
+        state.size_class = size_class;
+        state.first = allocate(size_class);
+    }
+    points_ += scratch_.size();
+    points_ -= state.count;
+    state.count = static_cast<std::uint32_t>(scratch_.size());
+    std::copy(scratch_.begin(), scratch_.end(), pool_.begin() + state.first);
+    for (std::size_t i = first; i <= first + points.size(); ++i)
+        if (is_bad(e, scratch_[i])) return add_suspect(e);
+}
+
+void SplitModel::cut(std::uint32_t e, std::size_t first, std::size_t last, std::span<const double> points) {
+    save(e);
+    replace_parts(e, first, last, points);
+    for (const std::uint32_t s : layout_.edge(e).side)
+        if (s != none) touch_facet(e, s, points, last > first);
+}
+
+void SplitModel::touch_facet(std::uint32_t e, std::uint32_t side, std::span<const double> points, bool removed) {
+    const Side& from = layout_.side(side);
+    const Facet& facet = layout_.facet(from.facet);
+    for (std::uint32_t s = facet.first_side; s < facet.first_side + facet.side_count; ++s)
+        if (layout_.side(s).edge != e) touch_side(e, from, s, points, removed);
+}
+
+/// Brings the minima of side s up to date after the points of edge e, at side `from` of the same facet, have changed.
+void SplitModel::touch_side(std::uint32_t e, const Side& from, std::uint32_t s, std::span<const double> points,
+                            bool removed) {
+    const Side& side = layout_.side(s);
+    const std::uint32_t other = side.edge;
+    const int k = layout_.edge(other).side[0] == s ? 0 : 1;
+    const bool single = layout_.facet(side.facet).single;
+    const Point2 p = side.to_frame(from.start);
+    const Point2 d = side.turn(from.along);
+    if (p.y <= flat && p.y + d.y <= flat) return;
+    const State& state = states_[other];
+    work_ += state.count;
+    double start = 0;
+    for (std::uint32_t i = 0; i < state.count; ++i) {
+        const Part& part = pool_[state.first + i];
+        const double a = start;
+        start = part.end;
+        double cot = part.cot[k];
+        std::uint32_t culprit = part.culprit[k];
+        const bool lost = removed && culprit == e;
+        if (!lost) {
+            for (const double u : points) {
+                const Point2 q = p + u * d;
+                if (!(q.y > 0)) continue;
+                const double candidate = cot_of(a, part.end, q);
+                if (candidate < cot) {
+                    cot = candidate;
+                    culprit = e;
+                }
+            }
+            if (!(cot < part.cot[k])) continue;
+        }
+        if (lost || !single) {
+            const Contact contact = nearest(s, a, part.end);
+            if (contact.cot == part.cot[k] && contact.edge == part.culprit[k]) continue;
+            cot = contact.cot;
+            culprit = contact.edge;
+        }
+        save(other);
+        Part& changed = pool_[state.first + i];
+        changed.cot[k] = cot;
+        changed.culprit[k] = culprit;
+        if (is_bad(other, changed)) add_suspect(other);
+    }
+}
+
+// --- what a part sees ---
+
+Contact SplitModel::nearest(std::uint32_t s, double a, double b) const {
+    const Side& side = layout_.side(s);
+    const Facet& facet = layout_.facet(side.facet);
+    if (!facet.single) return flood(s, a, b);
+    ++work_;
+    Contact best{cot_of(a, b, side.apex), side.apex, none};
+    const std::uint32_t i = s - facet.first_side;
+    scan(side, layout_.side(facet.first_side + (i == 2 ? 0 : i + 1)), a, b, best);
+    scan(side, layout_.side(facet.first_side + (i == 0 ? 2 : i - 1)), a, b, best);
+    return best;
+}
+
+/// Improves on `best` by the points of another side.
+void SplitModel::scan(const Side& side, const Side& other, double a, double b, Contact& best) const {
+    if (point_count(other.edge) == 0) return;
+    const auto points = parts(other.edge).first(point_count(other.edge));
+    const Point2 p = side.to_frame(other.start);
+    const Point2 d = side.turn(other.along);
+    const auto consider = [&](double u) {
+        const Point2 q = p + u * d;
+        if (!(q.y > 0)) return;
+        const double cot = cot_of(a, b, q);
+        if (cot < best.cot) best = {cot, q, other.edge};
+    };
+    if (points.size() <= few) {
+        work_ += points.size();
+        for (const Part& part : points) consider(part.end);
+        return;
+    }
+    // The angle rises to its maximum along the line and falls behind it.
+    work_ += few;
+    const double top = largest_angle_on_line(a, b, p, d);
+    const auto above = std::lower_bound(points.begin(), points.end(), top,
+                                        [](const Part& part, double value) { return part.end < value; });
+    if (above != points.end()) consider(above->end);
+    if (above != points.begin()) consider((above - 1)->end);
+}
+
+void SplitModel::start_visit() const {
+    if (seen_.size() < layout_.triangle_count()) seen_.resize(layout_.triangle_count(), 0);
+    ++visit_;
+}
+
+bool SplitModel::visit(std::uint32_t triangle) const {
+    if (seen_[triangle] == visit_) return false;
+    seen_[triangle] = visit_;
+    return true;
+}
+
+/// The smallest cotangent at which a point of the triangle's side i sees [a,b].
+double SplitModel::portal_level(const Side& side, const FacetTriangle& triangle, std::size_t i, double a,
+                                double b) const {
+    ++work_;
+    const Point2 from = layout_.corner(triangle.corner[i]);
+    const Point2 to = layout_.corner(triangle.corner[(i + 1) % 3]);
+    const Point2 p = side.to_frame(from);
+    const Point2 d = side.turn(to - from);
+    const double u = std::clamp(largest_angle_on_line(a, b, p, d), 0.0, 1.0);
+    const Point2 q = p + u * d;
+    if (q.y > 0) return cot_of(a, b, q);
+    return (a - q.x) * (b - q.x) <= 0 ? -infinity : infinity;
+}
+
+/// Grows the disc of the points that see [a,b] until it holds one, through the triangles of the facet: the triangle
+/// that the disc reaches first comes first. A point in the part of the disc that is connected to [a,b] within the facet
+/// proves that there is one that sees [a,b] (follow the shortest way back to its last bend), so looking for connected
+/// points is enough, and it respects holes and notches.
+Contact SplitModel::flood(std::uint32_t s, double a, double b) const {
+    const Side& side = layout_.side(s);
+    start_visit();
+    heap_.assign(1, {-infinity, side.triangle});
+    Contact best{infinity, {}, none};
+    while (!heap_.empty()) {
+        std::pop_heap(heap_.begin(), heap_.end());
+        const Portal portal = heap_.back();
+        heap_.pop_back();
+        if (portal.level >= best.cot) break;
+        if (!visit(portal.triangle)) continue;
+        const FacetTriangle& triangle = layout_.triangle(portal.triangle);
+        const auto take = [&](Contact found) {
+            found.cot = std::max(found.cot, portal.level);
+            if (found.cot < best.cot) best = found;
+        };
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Point2 corner = side.to_frame(layout_.corner(triangle.corner[i]));
+            ++work_;
+            if (corner.y > flat) take({cot_of(a, b, corner), corner, none});
+            if (!triangle.is_side[i]) continue;
+            const Side& other = layout_.side(triangle.beyond[i]);
+            Contact found{best.cot, {}, none};
+            if (other.edge != side.edge) scan(side, other, a, b, found);
+            if (found.edge != none) take(found);
+        }
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (triangle.is_side[i] || seen_[triangle.beyond[i]] == visit_) continue;
+            const double level = std::max(portal.level, portal_level(side, triangle, i, a, b));
+            if (level >= best.cot) continue;
+            heap_.push_back({level, triangle.beyond[i]});
+            std::push_heap(heap_.begin(), heap_.end());
+        }
+    }
+    return best;
+}
+
+bool SplitModel::reaches(std::uint32_t s, double a, double b, double level, std::uint32_t t) const {
+    const Side& side = layout_.side(s);
+    const std::uint32_t goal = layout_.side(t).triangle;
+    if (layout_.facet(side.facet).single || goal == side.triangle) return true;
+    start_visit();
+    heap_.assign(1, {level, side.triangle});
+    visit(side.triangle);
+    while (!heap_.empty()) {
+        const FacetTriangle& triangle = layout_.triangle(heap_.back().triangle);
+        heap_.pop_back();
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (triangle.is_side[i] || seen_[triangle.beyond[i]] == visit_) continue;
+            if (!(portal_level(side, triangle, i, a, b) < level)) continue;
+            if (triangle.beyond[i] == goal) return true;
+            visit(triangle.beyond[i]);
+            heap_.push_back({level, triangle.beyond[i]});
+        }
+    }
+    return false;
+}
+
+}  // namespace delmesh

@@ -1,0 +1,157 @@
+#pragma once
+// Split positions on physical edges, and whether every part of every edge is Delaunay: no triangulation is needed.
+//
+// In a Delaunay facet the angle opposite to a part of a side is the largest one at which any point of the facet that
+// sees the part does see it. So a part is Delaunay iff the smallest cotangents at its two sides do not sum to less than
+// zero (at the boundary: iff the smallest one is not below zero). The model keeps these minima up to date.
+
+#include "delaunay/facet_layout.hpp"
+
+#include <span>
+#include <vector>
+
+namespace delmesh {
+
+/// What a part of a side sees under the largest angle.
+struct Contact {
+    double cot = 0;
+    Point2 at;                               ///< in the frame of the side
+    std::uint32_t edge = FacetLayout::none;  ///< the edge it lies on; none: a corner of the input
+};
+
+/// A part of an edge, from the end of the part before it (or 0) to `end`.
+struct Part {
+    double end = 1;
+    std::array<double, 2> cot{};  ///< the smallest, for both sides; 0 where there is no facet
+    std::array<std::uint32_t, 2> culprit{FacetLayout::none, FacetLayout::none};
+};
+
+class SplitModel {
+public:
+    static constexpr std::uint32_t none = FacetLayout::none;
+
+    explicit SplitModel(const MarkedMesh& marked) : layout_(marked) {}
+
+    // --- where ---
+    [[nodiscard]] const FacetLayout& layout() const { return layout_; }
+    std::uint32_t edge_of(HalfedgeId h) { return layout_.edge_of(h); }
+    /// Makes everything known that a change of this edge's points may touch.
+    void prepare(std::uint32_t e);
+    /// Points may be put on this edge.
+    [[nodiscard]] bool is_movable(std::uint32_t e) const { return states_[e].movable; }
+    void set_movable(std::uint32_t e, bool movable) { states_[e].movable = movable; }
+
+    // --- positions ---
+    [[nodiscard]] std::size_t edge_count() const { return states_.size(); }
+    [[nodiscard]] std::size_t point_count() const { return points_; }
+    [[nodiscard]] std::uint32_t point_count(std::uint32_t e) const {
+        return e < states_.size() && states_[e].made ? states_[e].count - 1 : 0;
+    }
+    [[nodiscard]] std::span<const Part> parts(std::uint32_t e) const {
+        return {pool_.data() + states_[e].first, states_[e].count};
+    }
+    [[nodiscard]] double part_start(std::uint32_t e, std::size_t i) const {
+        return i == 0 ? 0.0 : pool_[states_[e].first + i - 1].end;
+    }
+    /// Replaces the points first ... last-1 of a prepared edge by new ones, in order. Edges with parts that are no
+    /// longer Delaunay go onto the list of suspects.
+    void cut(std::uint32_t e, std::size_t first, std::size_t last, std::span<const double> points);
+
+    // --- judgement ---
+    [[nodiscard]] bool is_bad(std::uint32_t e, const Part& part) const;
+    /// The first part that is not Delaunay, or -1.
+    [[nodiscard]] int first_bad(std::uint32_t e) const;
+    /// Edges that may have a part that is not Delaunay; each is listed once, until it is taken off.
+    [[nodiscard]] std::size_t suspect_count() const { return suspects_.size(); }
+    [[nodiscard]] std::uint32_t suspect(std::size_t i) const { return suspects_[i]; }
+    void add_suspect(std::uint32_t e);
+    /// Edges that were given up are never suspected, until they are no longer.
+    void give_up(std::uint32_t e, bool yes) { states_[e].given_up = yes; }
+    [[nodiscard]] bool is_given_up(std::uint32_t e) const { return states_[e].given_up; }
+    void drop_suspect(std::size_t i);
+    void swap_suspects(std::size_t i, std::size_t j) { std::swap(suspects_[i], suspects_[j]); }
+
+    /// What sees the interval [a,b] of a side under the largest angle.
+    [[nodiscard]] Contact nearest(std::uint32_t s, double a, double b) const;
+    /// True if the disc of the points that see [a,b] of side s with a cotangent below `level` reaches side t within the
+    /// facet.
+    [[nodiscard]] bool reaches(std::uint32_t s, double a, double b, double level, std::uint32_t t) const;
+
+    // --- weights, for the search ---
+    [[nodiscard]] int weight(std::uint32_t e) const { return states_[e].weight; }
+    void add_weight(std::uint32_t e, int more);
+
+    // --- transactions ---
+    void begin();
+    void commit();
+    void rollback();
+
+    /// Elementary evaluations so far: the measure of work that budgets are stated in.
+    [[nodiscard]] std::uint64_t work() const { return work_; }
+    void count_work(std::size_t more) const { work_ += more; }
+
+    static constexpr int base_weight = 10;
+
+private:
+    struct State {
+        std::uint32_t first = 0;  ///< of its parts in the pool
+        std::uint32_t count = 0;
+        std::uint32_t transaction = 0;
+        int weight = base_weight;
+        std::uint8_t size_class = 0;  ///< room for 2^size_class parts
+        bool made = false;
+        bool prepared = false;
+        bool movable = true;
+        bool suspected = false;
+        bool given_up = false;
+    };
+    struct Saved {
+        std::uint32_t edge = 0;
+        std::uint32_t first = 0;
+        std::uint32_t count = 0;
+        std::uint8_t size_class = 0;
+    };
+    struct Portal {
+        double level = 0;
+        std::uint32_t triangle = 0;
+        friend bool operator<(const Portal& a, const Portal& b) { return a.level > b.level; }
+    };
+
+    void grow_states();
+    void make(std::uint32_t e);
+    [[nodiscard]] std::uint32_t allocate(std::uint8_t size_class);
+    void release(std::uint32_t first, std::uint8_t size_class) { free_[size_class].push_back(first); }
+    void save(std::uint32_t e);
+    void replace_parts(std::uint32_t e, std::size_t first, std::size_t last, std::span<const double> points);
+    void touch_facet(std::uint32_t e, std::uint32_t side, std::span<const double> points, bool removed);
+    void touch_side(std::uint32_t e, const Side& from, std::uint32_t s, std::span<const double> points, bool removed);
+    void scan(const Side& side, const Side& other, double a, double b, Contact& best) const;
+    [[nodiscard]] Contact flood(std::uint32_t s, double a, double b) const;
+    [[nodiscard]] double portal_level(const Side& side, const FacetTriangle& triangle, std::size_t i, double a,
+                                      double b) const;
+    void start_visit() const;
+    bool visit(std::uint32_t triangle) const;
+
+    FacetLayout layout_;
+    std::vector<State> states_;
+    std::vector<Part> pool_;
+    std::array<std::vector<std::uint32_t>, 32> free_;
+    std::vector<std::uint32_t> suspects_;
+    std::vector<Saved> saved_;
+    std::vector<std::uint32_t> touched_weights_;
+    std::vector<Part> scratch_;
+    std::size_t points_ = 0;
+    std::uint32_t transaction_ = 0;
+    bool in_transaction_ = false;
+    mutable std::vector<Portal> heap_;
+    mutable std::vector<std::uint32_t> seen_;
+    mutable std::uint32_t visit_ = 0;
+    mutable std::uint64_t work_ = 0;
+};
+
+/// The cotangent of the angle at which p sees the interval [a,b] of the x axis.
+[[nodiscard]] inline double cot_of(double a, double b, Point2 p) {
+    return ((a - p.x) * (b - p.x) + p.y * p.y) / (p.y * (b - a));
+}
+
+}  // namespace delmesh

@@ -1,0 +1,38 @@
+#pragma once
+// Makes edges Delaunay one after the other, each by the best response to the others.
+
+#include "delaunay/best_response.hpp"
+#include "delaunay/random.hpp"
+#include "delaunay/split_model.hpp"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace delmesh {
+
+class SplitRepair {
+public:
+    SplitRepair(SplitModel& model, Random& random) : model_(model), random_(random), response_(model, random) {}
+
+    /// Works off the model's suspects: places new points on an edge with bad parts, or on the edge whose point such a
+    /// part sees. Each time an edge turns up its weight grows, so that others avoid to make it bad. False as soon as
+    /// that has taken more than `steps` steps, or as the points, and 0.4 for each edge that is still suspected, exceed
+    /// `max_points`. `last_first`: newest suspects first, which draws threads of points across strips; else random.
+    bool run(std::size_t max_points, std::size_t steps, bool last_first);
+
+    /// The index of the part that ends at or after `at`.
+    [[nodiscard]] std::size_t part_at(std::uint32_t e, double at) const;
+
+private:
+    void resolve(std::uint32_t e, std::size_t part);
+    bool resolve_culprit(std::uint32_t e, std::size_t part);
+    void replace(std::uint32_t e, std::size_t first, std::size_t last);
+    [[nodiscard]] bool takes_whole_edge(std::size_t points);
+    [[nodiscard]] std::size_t point_seen(std::uint32_t e, std::size_t part, int k) const;
+
+    SplitModel& model_;
+    Random& random_;
+    BestResponse response_;
+};
+
+}  // namespace delmesh

@@ -1,0 +1,300 @@
+#include "delaunay/split_search.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace delmesh {
+namespace {
+
+constexpr int first_rounds = 6;
+constexpr std::size_t first_steps = 50;
+constexpr double open_share = 0.3;
+constexpr double any_move_share = 0.4;
+constexpr std::size_t memory = 512;  ///< tries after which what moves have gained counts half
+constexpr std::size_t many_sides = 8;
+constexpr std::size_t very_many_sides = 64;
+constexpr std::size_t most_taken = 400;
+/// The search ends when it takes away less than 1/400 of the points in a stretch of work.
+constexpr std::uint64_t work_per_point = 10'000;
+constexpr std::uint64_t least_stretch = 10'000'000;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+// --- construction ---
+
+/// Tries to make one open edge Delaunay, for a few points more.
+bool SplitSearch::attempt(std::uint32_t e, std::size_t steps, bool clear_first) {
+    model_.begin();
+    model_.give_up(e, false);
+    model_.add_suspect(e);
+    const std::size_t most = model_.point_count() + 10 + steps / 4;
+    if (clear_first) {
+        take_edges(e, 2 + random_.below(random_.chance(0.5) ? 8 : 40));
+        steps += 6 * taken_.size();
+        remove_taken();
+    }
+    if (repair_.run(most, steps, random_.chance(0.8))) {
+        model_.commit();
+        return true;
+    }
+    model_.rollback();
+    model_.give_up(e, true);
+    return false;
+}
+
+void SplitSearch::construct(const std::vector<std::uint32_t>& bad_edges) {
+    open_ = bad_edges;
+    for (const std::uint32_t e : open_) model_.give_up(e, true);
+    for (int round = 0; round < first_rounds && !open_.empty(); ++round) {
+        std::size_t left = 0;
+        for (const std::uint32_t e : open_) {
+            if (model_.first_bad(e) < 0) {
+                model_.give_up(e, false);
+            } else if (!attempt(e, first_steps, round > 0 && random_.chance(0.7))) {
+                open_[left++] = e;
+            }
+        }
+        open_.resize(left);
+    }
+}
+
+void SplitSearch::attempt_any_open() {
+    const std::size_t i = random_.below(open_.size());
+    const std::uint32_t e = open_[i];
+    if (model_.first_bad(e) < 0) {
+        model_.give_up(e, false);
+    } else if (!attempt(e, first_steps << random_.below(5), random_.chance(0.5))) {
+        return;
+    }
+    open_[i] = open_.back();
+    open_.pop_back();
+}
+
+// --- improvement ---
+
+bool SplitSearch::is_spare(std::uint32_t e) const {
+    return model_.point_count(e) > (model_.layout().edge(e).is_delaunay ? 0u : 1u);
+}
+
+void SplitSearch::find_spare_edges() {
+    spare_.clear();
+    for (std::uint32_t e = 0; e < model_.edge_count(); ++e)
+        if (is_spare(e) && model_.is_movable(e)) spare_.push_back(e);
+}
+
+void SplitSearch::improve(std::uint64_t work, const Context* context) {
+    const std::uint64_t start = model_.work();
+    const std::uint64_t stretch = std::max<std::uint64_t>(work_per_point * model_.point_count(), least_stretch);
+    std::uint64_t check = start + stretch;
+    std::size_t points_then = model_.point_count() + open_.size();
+    std::size_t since = 0;
+    find_spare_edges();
+    while (!spare_.empty() || !open_.empty()) {
+        if (model_.work() - start >= work || is_cancelled(context)) return;
+        if (model_.work() >= check) {
+            const std::size_t points = model_.point_count() + open_.size();
+            if (open_.empty() && points <= points_then && 400 * (points_then - points) < points_then) return;
+            points_then = points;
+            check = model_.work() + stretch;
+            report_progress(context, "place", static_cast<double>(model_.work() - start) / static_cast<double>(work));
+        }
+        if (!open_.empty() && (spare_.empty() || random_.chance(open_share))) {
+            attempt_any_open();
+        } else {
+            const std::size_t i = random_.below(spare_.size());
+            const std::uint32_t e = spare_[i];
+            if (is_spare(e)) {
+                try_once(e);
+                ++since;
+            } else {
+                spare_[i] = spare_.back();
+                spare_.pop_back();
+            }
+        }
+        if (!spare_.empty() && since <= 2 * spare_.size() + 50) continue;
+        find_spare_edges();
+        since = 0;
+    }
+}
+
+SplitSearch::Move& SplitSearch::choose_move() {
+    if (random_.chance(any_move_share)) return moves_[random_.below(moves_.size())];
+    double sum = 0;
+    for (const Move& move : moves_) sum += move.gain / move.work;
+    double left = sum * random_.uniform();
+    for (Move& move : moves_) {
+        left -= move.gain / move.work;
+        if (left < 0) return move;
+    }
+    return moves_.front();
+}
+
+void SplitSearch::forget_gains() {
+    for (Move& move : moves_) {
+        move.gain = 0.5 * move.gain + 1e-3;
+        move.work = 0.5 * move.work + 1e-3;
+    }
+}
+
+void SplitSearch::try_once(std::uint32_t edge) {
+    Move& move = choose_move();
+    take(move, edge);
+    const std::size_t before = model_.point_count();
+    const std::uint64_t work_before = model_.work();
+    const std::size_t steps = 6 * taken_.size() + 20;
+    model_.begin();
+    remove_taken();
+    if (random_.chance(0.5))
+        for (std::size_t i = model_.suspect_count(); i > 1; --i) model_.swap_suspects(i - 1, random_.below(i));
+    if (repair_.run(before, steps, random_.chance(0.5))) {
+        model_.commit();
+        move.gain += static_cast<double>(before - model_.point_count());
+    } else {
+        model_.rollback();
+    }
+    move.work += 1e-4 * static_cast<double>(model_.work() - work_before);
+    if (++tries_ % memory == 0) forget_gains();
+}
+
+// --- what to take away ---
+
+void SplitSearch::take(const Move& move, std::uint32_t edge) {
+    const std::size_t n = model_.point_count(edge);
+    const Target seed{edge, model_.parts(edge)[n == 1 ? 0 : random_.below(n)].end};
+    const std::size_t size = move.least + random_.below(move.most - move.least + 1);
+    switch (move.kind) {
+        case Kind::cluster:
+            return take_cluster(seed, size);
+        case Kind::edges:
+            return take_edges(edge, size);
+        case Kind::thread:
+            return take_thread(seed, size);
+    }
+}
+
+bool SplitSearch::is_taken(const Target& t) const {
+    return std::any_of(taken_.begin(), taken_.end(),
+                       [&](const Target& other) { return other.edge == t.edge && other.at == t.at; });
+}
+
+/// The nearest points on the other sides of a facet; in a facet with many sides, the nearest one of all.
+void SplitSearch::add_nearest(const Side& from, Point2 at) {
+    const Facet& facet = model_.layout().facet(from.facet);
+    Target nearest;
+    double least = infinity;
+    for (std::uint32_t s = facet.first_side; s < facet.first_side + facet.side_count; ++s) {
+        const Side& side = model_.layout().side(s);
+        const std::size_t n = model_.point_count(side.edge);
+        if (n == 0 || side.edge == from.edge || !model_.is_movable(side.edge)) continue;
+        const auto parts = model_.parts(side.edge);
+        std::size_t i = 0;
+        if (n > 1) {
+            const double t = dot(at - side.start, side.x_row);
+            i = std::min(repair_.part_at(side.edge, t), n - 1);
+            if (i > 0 && t - parts[i - 1].end < parts[i].end - t) --i;
+        }
+        const Target target{side.edge, parts[i].end};
+        if (facet.side_count <= many_sides) {
+            nearby_.push_back(target);
+            continue;
+        }
+        const Point2 d = side.at(target.at) - at;
+        if (dot(d, d) >= least) continue;
+        least = dot(d, d);
+        nearest = target;
+    }
+    if (least < infinity) nearby_.push_back(nearest);
+}
+
+void SplitSearch::add_neighbours(const Target& of) {
+    const std::size_t i = repair_.part_at(of.edge, of.at);
+    const auto parts = model_.parts(of.edge);
+    if (i > 0) nearby_.push_back({of.edge, parts[i - 1].end});
+    if (i + 2 < parts.size()) nearby_.push_back({of.edge, parts[i + 1].end});
+    for (const std::uint32_t s : model_.layout().edge(of.edge).side)
+        if (s != SplitModel::none) add_nearest(model_.layout().side(s), model_.layout().side(s).at(of.at));
+}
+
+/// Neighbouring points, in random order.
+void SplitSearch::take_cluster(Target seed, std::size_t size) {
+    nearby_.clear();
+    taken_.assign(1, seed);
+    if (size > 1) add_neighbours(seed);
+    while (taken_.size() < size && !nearby_.empty()) {
+        const std::size_t i = random_.below(nearby_.size());
+        const Target next = nearby_[i];
+        nearby_[i] = nearby_.back();
+        nearby_.pop_back();
+        if (is_taken(next)) continue;
+        taken_.push_back(next);
+        add_neighbours(next);
+    }
+}
+
+/// All points of neighbouring edges.
+void SplitSearch::take_edges(std::uint32_t edge, std::size_t size) {
+    const FacetLayout& layout = model_.layout();
+    taken_.clear();
+    edges_.assign(1, edge);
+    for (std::size_t done = 0; done < edges_.size() && done < size && taken_.size() < most_taken; ++done) {
+        if (done > 0) std::swap(edges_[done], edges_[done + random_.below(edges_.size() - done)]);
+        const std::uint32_t e = edges_[done];
+        for (const Part& part : model_.parts(e).first(model_.point_count(e))) taken_.push_back({e, part.end});
+        for (const std::uint32_t s : layout.edge(e).side) {
+            if (s == SplitModel::none) continue;
+            const Facet& facet = layout.facet(layout.side(s).facet);
+            if (facet.side_count > very_many_sides) continue;
+            for (std::uint32_t i = facet.first_side; i < facet.first_side + facet.side_count; ++i) {
+                const std::uint32_t other = layout.side(i).edge;
+                if (model_.point_count(other) == 0 || !model_.is_movable(other)) continue;
+                if (std::find(edges_.begin(), edges_.end(), other) == edges_.end()) edges_.push_back(other);
+            }
+        }
+    }
+}
+
+/// Moves `at` across the facet at side k of its edge to the nearest point there, and k to the far side of the edge that
+/// it comes to.
+bool SplitSearch::move_across(int& k, Target& at) {
+    const FacetLayout& layout = model_.layout();
+    const std::uint32_t s = layout.edge(at.edge).side[k];
+    if (s == SplitModel::none) return false;
+    const Side& from = layout.side(s);
+    const Point2 p = from.at(at.at);
+    nearby_.clear();
+    add_nearest(from, p);
+    double least = infinity;
+    for (const Target& t : nearby_) {
+        if (is_taken(t)) continue;
+        const auto& sides = layout.edge(t.edge).side;
+        const int near = sides[0] != SplitModel::none && layout.side(sides[0]).facet == from.facet ? 0 : 1;
+        const Point2 d = layout.side(sides[near]).at(t.at) - p;
+        if (dot(d, d) >= least) continue;
+        least = dot(d, d);
+        at = t;
+        k = 1 - near;
+    }
+    return least < infinity;
+}
+
+/// A chain of points, each the nearest to the one before across a facet: in strips points vanish only all together.
+void SplitSearch::take_thread(Target seed, std::size_t size) {
+    taken_.assign(1, seed);
+    for (const int direction : {0, 1}) {
+        Target at = seed;
+        int k = direction;
+        while (taken_.size() < size && move_across(k, at)) taken_.push_back(at);
+    }
+}
+
+void SplitSearch::remove_taken() {
+    for (const Target& t : taken_) {
+        if (!model_.is_movable(t.edge)) continue;
+        model_.prepare(t.edge);
+        const std::size_t i = repair_.part_at(t.edge, t.at);
+        if (i < model_.point_count(t.edge) && model_.parts(t.edge)[i].end == t.at) model_.cut(t.edge, i, i + 1, {});
+    }
+}
+
+}  // namespace delmesh

@@ -1,0 +1,85 @@
+#pragma once
+// A large-neighbourhood search for few split points: take some away, repair what becomes bad, keep what is not worse.
+
+#include "delaunay/random.hpp"
+#include "delaunay/split_model.hpp"
+#include "delaunay/split_repair.hpp"
+#include "delmesh/base/context.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace delmesh {
+
+class SplitSearch {
+public:
+    SplitSearch(SplitModel& model, std::uint64_t seed) : model_(model), random_(seed), repair_(model, random_) {}
+
+    /// Tries to make these edges Delaunay, in several rounds of short attempts. What is left stays `open`: such edges
+    /// are not Delaunay, and nothing tries to mend them but further attempts.
+    void construct(const std::vector<std::uint32_t>& bad_edges);
+
+    /// Takes points away, and tries to close open edges, until that much work is done or little has come of the last
+    /// stretch of it. The number of points never grows but to close an edge.
+    void improve(std::uint64_t work, const Context* context = nullptr);
+
+    /// Edges that are not Delaunay.
+    [[nodiscard]] const std::vector<std::uint32_t>& open() const { return open_; }
+
+private:
+    struct Target {
+        std::uint32_t edge = 0;
+        double at = 0;
+    };
+    enum class Kind { cluster, edges, thread };
+    /// A way to choose what to take away, and what came of it.
+    struct Move {
+        Kind kind = Kind::cluster;
+        std::size_t least = 1;
+        std::size_t most = 1;
+        double gain = 1;
+        double work = 1;
+    };
+
+    bool attempt(std::uint32_t e, std::size_t steps, bool clear_first);
+    void attempt_any_open();
+    void try_once(std::uint32_t edge);
+    Move& choose_move();
+    void forget_gains();
+    void find_spare_edges();
+    [[nodiscard]] bool is_spare(std::uint32_t e) const;
+
+    void take(const Move& move, std::uint32_t edge);
+    void take_cluster(Target seed, std::size_t size);
+    void take_edges(std::uint32_t edge, std::size_t size);
+    void take_thread(Target seed, std::size_t size);
+    void add_neighbours(const Target& of);
+    void add_nearest(const Side& from, Point2 at);
+    bool move_across(int& k, Target& at);
+    void remove_taken();
+    [[nodiscard]] bool is_taken(const Target& t) const;
+
+    SplitModel& model_;
+    Random random_;
+    SplitRepair repair_;
+    std::array<Move, 9> moves_{{
+        {Kind::cluster, 1, 1},
+        {Kind::cluster, 2, 2},
+        {Kind::cluster, 3, 7},
+        {Kind::cluster, 8, 20},
+        {Kind::edges, 2, 7},
+        {Kind::edges, 8, 20},
+        {Kind::edges, 21, 50},
+        {Kind::thread, 2, 13},
+        {Kind::thread, 14, 100},
+    }};
+    std::size_t tries_ = 0;
+    std::vector<std::uint32_t> open_;
+    std::vector<std::uint32_t> spare_;
+    std::vector<Target> taken_;
+    std::vector<Target> nearby_;
+    std::vector<std::uint32_t> edges_;
+};
+
+}  // namespace delmesh

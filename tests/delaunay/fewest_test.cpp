@@ -1,0 +1,86 @@
+// Placement fewest: the promises of mode preserve, and never more splits than the shells.
+
+#include "delaunay/preserve_check.hpp"
+#include "delmesh/base/error.hpp"
+#include "delmesh/delaunay/remesh.hpp"
+#include "delmesh/mesh/shapes.hpp"
+#include "delmesh/mesh/validate.hpp"
+#include "support/families.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+namespace delmesh {
+namespace {
+
+using test::check_delaunay;
+using test::check_preserved;
+
+RemeshOptions options_of(SplitPlacement placement, std::size_t effort = 0) {
+    RemeshOptions options;
+    options.placement = placement;
+    options.effort = effort;
+    options.max_vertices = 20000;
+    return options;
+}
+
+bool same_bits(const Mesh& a, const Mesh& b) {
+    return a.vertex_count() == b.vertex_count() && a.face_count() == b.face_count() &&
+           std::memcmp(a.points().data(), b.points().data(), a.points().size_bytes()) == 0 &&
+           std::memcmp(a.corners().data(), b.corners().data(), a.corners().size_bytes()) == 0;
+}
+
+class Fewest : public testing::TestWithParam<test::NamedSoup> {};
+
+TEST_P(Fewest, KeepsTheSurfaceAndNeedsNoMoreThanShells) {
+    const Mesh before(GetParam().soup);
+    if (GetParam().has_zero_area) GTEST_SKIP() << "covered by the tests of the shells";
+    Mesh shells = before;
+    const RemeshReport by_shells = make_delaunay(shells, options_of(SplitPlacement::shells));
+    Mesh mesh = before;
+    const RemeshReport report = make_delaunay(mesh, options_of(SplitPlacement::fewest));
+    ASSERT_EQ(validate(mesh), "");
+    EXPECT_EQ(report.lower_bound, by_shells.lower_bound);
+    EXPECT_EQ(mesh.vertex_count(), before.vertex_count() + report.splits);
+    EXPECT_EQ(check_preserved(before, mesh, report.provenance, GetParam().extreme_scale ? 1e-9 : 1e-13), "");
+    if (by_shells.stop != StopReason::done) return;
+    ASSERT_EQ(report.stop, StopReason::done);
+    EXPECT_EQ(check_delaunay(mesh), "");
+    EXPECT_LE(report.splits, by_shells.splits);
+    EXPECT_GE(report.splits, report.lower_bound);
+}
+
+TEST_P(Fewest, SameBitsWhateverTheThreads) {
+    if (GetParam().has_zero_area) GTEST_SKIP() << "covered by the tests of the shells";
+    Mesh one(GetParam().soup);
+    Mesh many(GetParam().soup);
+    const Context single({}, 1);
+    const Context four({}, 4);
+    make_delaunay(one, options_of(SplitPlacement::fewest), &single);
+    make_delaunay(many, options_of(SplitPlacement::fewest), &four);
+    EXPECT_TRUE(same_bits(one, many));
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, Fewest, testing::ValuesIn(test::families(300)), [](const auto& named) {
+    std::string name = named.param.name;
+    for (char& c : name)
+        if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+    return name;
+});
+
+TEST(Effort, NeverAddsPoints) {
+    const Mesh before(make_sample("saddle", 800));
+    std::size_t last = before.face_count() * 3;
+    for (const std::size_t effort : {0, 1}) {
+        Mesh mesh = before;
+        const RemeshReport report = make_delaunay(mesh, options_of(SplitPlacement::fewest, effort));
+        ASSERT_EQ(report.stop, StopReason::done);
+        EXPECT_EQ(check_delaunay(mesh), "");
+        EXPECT_LE(report.splits, last);
+        last = report.splits;
+    }
+}
+
+}  // namespace
+}  // namespace delmesh
