@@ -37,11 +37,12 @@ void build(benchmark::State& state) {
     per_face(state, soup.face_count());
 }
 
-void remesh(benchmark::State& state, RemeshMode mode) {
+void remesh(benchmark::State& state, RemeshMode mode, SplitPlacement placement = SplitPlacement::shells) {
     const Mesh mesh(surface(static_cast<std::size_t>(state.range(0))));
     const Context one({}, 1);
     RemeshOptions options;
     options.mode = mode;
+    options.placement = placement;
     RemeshReport report;
     for (auto _ : state) {
         state.PauseTiming();
@@ -56,6 +57,9 @@ void remesh(benchmark::State& state, RemeshMode mode) {
 
 void preserve(benchmark::State& state) {
     remesh(state, RemeshMode::preserve);
+}
+void preserve_fewest(benchmark::State& state) {
+    remesh(state, RemeshMode::preserve, SplitPlacement::fewest);
 }
 void flip(benchmark::State& state) {
     remesh(state, RemeshMode::flip);
@@ -110,5 +114,6 @@ BENCHMARK(flip_phase_lifo)->Apply(sizes);
 BENCHMARK(flip)->Apply(sizes);
 BENCHMARK(feature)->Apply(sizes);
 BENCHMARK(preserve)->Apply(sizes);
+BENCHMARK(preserve_fewest)->Apply(sizes);
 
 }  // namespace

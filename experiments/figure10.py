@@ -9,7 +9,7 @@ import command
 import mesh_file
 import render
 
-MODES = [("original", None), ("flip", ["--mode", "flip"]), ("preserve", []),
+MODES = [("original", None), ("flip", ["--mode", "flip"]), ("preserve", ["--placement", "shells"]),
          ("feature, 10°", ["--mode", "feature", "--feature-angle", "10"])]
 
 
@@ -35,7 +35,7 @@ def panels(subject):
         if options is None:
             yield title, subject.source, 0.0
             continue
-        path, _ = command.remesh(subject.source, f"figure10-{subject.name}-{options[-1] if options else 'preserve'}",
+        path, _ = command.remesh(subject.source, f"figure10-{subject.name}-{options[-1]}",
                                  *options)
         yield title, path, command.delmesh("distance", subject.source, path)["hausdorff"]["percent"]
 

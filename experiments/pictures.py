@@ -29,7 +29,7 @@ def run():
     view = render.View(points, DIRECTION, margin=1.02)
     size = (440, int(440 * view.size[1] / view.size[0]))
     figure, axes = pyplot.subplots(1, 2, figsize=(9.4, 4.7 * size[1] / size[0] + 0.5), dpi=100)
-    path, report = command.remesh(source, "before-after")
+    path, report = command.remesh(source, "before-after", "--placement", "shells")
     bad = report["input"]["delaunay"]["non_delaunay_edges"]
     axes[0].set_title(f"before: {bad:,} edges are not Delaunay (red)", fontsize=11)
     axes[1].set_title(f"after: the same surface, {report['splits']:,} points added (green)", fontsize=11)

@@ -50,6 +50,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         options.finish = (choice & 16) != 0 ? FlipFinish::literal : FlipFinish::keep_flipping;
         options.order = static_cast<FlipOrder>((choice >> 5) % 3);
         options.max_vertices = mesh->vertex_count() + 300;
+        options.placement = (choice & 4) != 0 ? SplitPlacement::shells : SplitPlacement::fewest;
+        options.effort = 0;
         fuzz::remesh(*mesh, options);
     }
     return 0;

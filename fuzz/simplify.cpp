@@ -29,6 +29,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     options.placement = (choice & 32) != 0 ? Placement::paper : Placement::best;
     options.feature_angle_deg = (choice & 64) != 0 ? 30 : 180;
     if (choice & 128) options.remesh.mode = RemeshMode::preserve;
+    options.remesh.effort = 0;
     options.remesh.max_vertices = mesh->vertex_count() + 200;
     const SimplifyReport report = simplify(*mesh, options);
     fuzz::require(validate(*mesh).empty(), "a simplified mesh is valid", validate(*mesh));

@@ -12,7 +12,7 @@ namespace {
 
 /// A unit of work takes about 10 ns.
 constexpr double work_per_edge = 25'000;
-constexpr double least_work = 400e6;
+constexpr double least_work = 150e6;
 constexpr int default_effort = 3;
 
 std::vector<PlacedPoint> place(SplitModel& model, std::span<const SplitPoint> splits) {

@@ -16,7 +16,7 @@ constexpr std::size_t very_many_sides = 64;
 constexpr std::size_t most_taken = 400;
 /// The search ends when it takes away less than 1/400 of the points in a stretch of work.
 constexpr std::uint64_t work_per_point = 10'000;
-constexpr std::uint64_t least_stretch = 10'000'000;
+constexpr std::uint64_t least_stretch = 4'000'000;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
