@@ -39,14 +39,12 @@ public:
 
 private:
     void fill_queue() {
-        std::vector<FlipQueue::Entry> entries;
         for (const HalfedgeId h : find_non_delaunay(mesh_, context_))
-            if (is_wanted(h)) entries.push_back({h, urgency_of(h)});
-        queue_.fill(entries);
+            if (is_wanted(h)) queue_.push({h, urgency_of(h)});
     }
 
     [[nodiscard]] bool is_wanted(HalfedgeId h) const { return split_physical_ || marked_.is_planar(h); }
-    [[nodiscard]] std::uint32_t urgency_of(HalfedgeId h) const { return queue_.uses_urgency() ? urgency(mesh_, h) : 0; }
+    [[nodiscard]] Urgency urgency_of(HalfedgeId h) const { return queue_.uses_urgency() ? urgency(mesh_, h) : 0; }
 
     void push(HalfedgeId side) {
         if (!is_wanted(side) || !is_non_delaunay(mesh_, side)) return;

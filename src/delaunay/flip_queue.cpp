@@ -6,76 +6,82 @@
 namespace delmesh {
 namespace {
 
-struct Angle {
-    double cosine;
-    double sine;
-};
-
-/// Scaled to about unit length where squares could leave the range of doubles.
+/// Scaled to about unit length.
 Vec3 tamed(const Vec3& a) {
     const double largest = std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)});
-    if (largest > 1e-70 && largest < 1e70) return a;
     if (!(largest > 0)) return a;
     const int exponent = std::ilogb(largest);
     return {std::scalbn(a.x, -exponent), std::scalbn(a.y, -exponent), std::scalbn(a.z, -exponent)};
 }
 
-Angle angle_at(const Vec3& apex, const Vec3& p, const Vec3& q) {
-    const Vec3 a = tamed(p - apex);
-    const Vec3 b = tamed(q - apex);
-    const double lengths = std::sqrt(squared_norm(a) * squared_norm(b));
-    return {dot(a, b) / lengths, std::sqrt(squared_norm(cross(a, b))) / lengths};
-}
+/// Twice the two sides of an angle.
+struct Corner {
+    Vec3 a;
+    Vec3 b;
+    [[nodiscard]] double squared_lengths() const { return squared_norm(a) * squared_norm(b); }
+};
 
-std::uint64_t pack(FlipQueue::Entry entry) {
-    return (std::uint64_t{entry.urgency} << 32) | (0xffffffffu - entry.h.value());
-}
+/// The cosine of the sum of two angles, and the scale that it is multiplied with, squared.
+struct ScaledCosine {
+    double value;
+    double squared_scale;
+};
 
-FlipQueue::Entry unpack(std::uint64_t item) {
-    return {HalfedgeId(0xffffffffu - static_cast<std::uint32_t>(item)), static_cast<std::uint32_t>(item >> 32)};
+ScaledCosine cosine_of_sum(const Corner& u, const Corner& v) {
+    const double lengths_u = u.squared_lengths();
+    const double lengths_v = v.squared_lengths();
+    const double dot_u = dot(u.a, u.b);
+    const double dot_v = dot(v.a, v.b);
+    // |a x b|^2 = |a|^2 |b|^2 - (a.b)^2 (Lagrange)
+    const double crosses = (lengths_u - dot_u * dot_u) * (lengths_v - dot_v * dot_v);
+    return {dot_u * dot_v - std::sqrt(std::max(crosses, 0.0)), lengths_u * lengths_v};
 }
 
 }  // namespace
 
-std::uint32_t urgency(const Mesh& mesh, HalfedgeId h) {
+Urgency urgency(const Mesh& mesh, HalfedgeId h) {
     const Vec3& p = mesh.point(mesh.origin(h));
     const Vec3& q = mesh.point(mesh.target(h));
-    const Angle u = angle_at(mesh.point(mesh.apex(h)), p, q);
     const HalfedgeId t = mesh.twin(h);
-    const Angle v = t.valid() ? angle_at(mesh.point(mesh.apex(t)), p, q) : u;
-    // The cosine of the sum grows with the sum between pi and 2 pi.
-    const double cosine = std::clamp(u.cosine * v.cosine - u.sine * v.sine, -1.0, 1.0);
-    return static_cast<std::uint32_t>((cosine + 1) * 0x1p31 * (1 - 0x1p-30));
+    const Vec3& apex_u = mesh.point(mesh.apex(h));
+    const Vec3& apex_v = t.valid() ? mesh.point(mesh.apex(t)) : apex_u;
+    const Corner u{p - apex_u, q - apex_u};
+    const Corner v{p - apex_v, q - apex_v};
+    ScaledCosine cosine = cosine_of_sum(u, v);
+    if (!(cosine.squared_scale > 1e-200 && cosine.squared_scale < 1e200))
+        cosine = cosine_of_sum({tamed(u.a), tamed(u.b)}, {tamed(v.a), tamed(v.b)});
+    // It grows with the sum between pi and 2 pi.
+    const double cosine_itself = std::clamp(cosine.value / std::sqrt(cosine.squared_scale), -1.0, 1.0);
+    return static_cast<Urgency>((cosine_itself + 1) / 2 * most_urgent);
 }
 
 HalfedgeId FlipQueue::upcoming(std::size_t place) const {
-    if (place >= size()) return {};
-    return unpack(items_[order_ == FlipOrder::lifo ? items_.size() - 1 - place : first_ + place]).h;
-}
-
-void FlipQueue::fill(const std::vector<Entry>& entries) {
-    items_.reserve(items_.size() + entries.size() + entries.size() / 2);
-    for (const Entry& entry : entries) items_.push_back(pack(entry));
-    if (order_ == FlipOrder::worst) std::make_heap(items_.begin(), items_.end());
+    const Lane& lane = lanes_[top_];
+    if (place >= lane.edges.size() - lane.first) return {};
+    return lane.edges[order_ == FlipOrder::lifo ? lane.edges.size() - 1 - place : lane.first + place];
 }
 
 void FlipQueue::push(Entry entry) {
-    items_.push_back(pack(entry));
-    if (order_ == FlipOrder::worst) std::push_heap(items_.begin(), items_.end());
+    const std::size_t place = uses_urgency() ? entry.urgency : 0;
+    lanes_[place].edges.push_back(entry.h);
+    top_ = std::max(top_, place);
+    ++size_;
 }
 
 FlipQueue::Entry FlipQueue::pop() {
-    if (order_ == FlipOrder::fifo) {
-        const Entry entry = unpack(items_[first_++]);
-        if (first_ > 4096 && first_ > items_.size() / 2) {
-            items_.erase(items_.begin(), items_.begin() + static_cast<std::ptrdiff_t>(first_));
-            first_ = 0;
-        }
+    while (lanes_[top_].empty()) --top_;
+    Lane& lane = lanes_[top_];
+    --size_;
+    Entry entry{lane.edges.back(), static_cast<Urgency>(top_)};
+    if (order_ == FlipOrder::lifo) {
+        lane.edges.pop_back();
         return entry;
     }
-    if (order_ == FlipOrder::worst) std::pop_heap(items_.begin(), items_.end());
-    const Entry entry = unpack(items_.back());
-    items_.pop_back();
+    entry.h = lane.edges[lane.first++];
+    if (lane.empty() || (lane.first > 4096 && lane.first > lane.edges.size() / 2)) {
+        lane.edges.erase(lane.edges.begin(), lane.edges.begin() + static_cast<std::ptrdiff_t>(lane.first));
+        lane.first = 0;
+    }
     return entry;
 }
 

@@ -4,43 +4,54 @@
 #include "delmesh/delaunay/remesh.hpp"
 #include "delmesh/mesh/mesh.hpp"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 namespace delmesh {
 
-/// How far the edge of h is from Delaunay, as a number that grows with the sum of its opposite angles (at the boundary:
-/// with twice the opposite angle). Only for edges that are not Delaunay. Computed in doubles with square roots alone,
-/// so that it is the same everywhere; two edges within 1e-9 or so of each other may get the same number.
-[[nodiscard]] std::uint32_t urgency(const Mesh& mesh, HalfedgeId h);
+/// How far an edge is from Delaunay, in steps: it grows with the sum of the opposite angles.
+using Urgency = std::uint32_t;
+inline constexpr Urgency most_urgent = 255;
 
-/// Edges in the order asked for. An entry may be out of date when it is popped: its edge may have changed since, and
-/// then the edge has been pushed again.
+/// The urgency of the edge of h, from the cosine of the sum of its opposite angles (at the boundary: of twice the
+/// opposite angle) in equal steps. Only for edges that are not Delaunay. Computed in doubles with square roots alone,
+/// so that it is the same everywhere.
+[[nodiscard]] Urgency urgency(const Mesh& mesh, HalfedgeId h);
+
+/// Edges in the order asked for. `worst`: the most urgent first; of equals, the one that came first. An entry may be
+/// out of date when it is popped: its edge may have changed since, and then the edge has been pushed again.
 class FlipQueue {
 public:
     struct Entry {
         HalfedgeId h;
-        std::uint32_t urgency;
+        Urgency urgency;
     };
 
-    explicit FlipQueue(FlipOrder order) : order_(order) {}
+    explicit FlipQueue(FlipOrder order) : order_(order), lanes_(order == FlipOrder::worst ? most_urgent + 1 : 1) {}
 
-    /// Adds many at once; cheaper than pushing them.
-    void fill(const std::vector<Entry>& entries);
     void push(Entry entry);
-    [[nodiscard]] bool empty() const { return first_ == items_.size(); }
-    [[nodiscard]] std::size_t size() const { return items_.size() - first_; }
+    [[nodiscard]] bool empty() const { return size_ == 0; }
+    [[nodiscard]] std::size_t size() const { return size_; }
+    /// Requires !empty().
     Entry pop();
-    /// What may be popped in a while: place 0 comes next, those up to 6 soon after. Not valid past the end.
+    /// What may be popped in a while: place 0 comes next, the places after it soon. Invalid where nothing is known.
     [[nodiscard]] HalfedgeId upcoming(std::size_t place) const;
     /// Whether the urgency of an entry has to be that of its edge for the entry to count.
     [[nodiscard]] bool uses_urgency() const { return order_ == FlipOrder::worst; }
 
 private:
+    /// The edges of one urgency, in the order in which they came; those before `first` are gone.
+    struct Lane {
+        std::vector<HalfedgeId> edges;
+        std::size_t first = 0;
+        [[nodiscard]] bool empty() const { return first == edges.size(); }
+    };
+
     FlipOrder order_;
-    /// Urgency above, the complement of the id below: the largest comes first, ties by the smaller id.
-    std::vector<std::uint64_t> items_;
-    std::size_t first_ = 0;
+    std::vector<Lane> lanes_;
+    std::size_t top_ = 0;  ///< no lane above has an edge
+    std::size_t size_ = 0;
 };
 
 }  // namespace delmesh
