@@ -54,17 +54,19 @@ bool normalise(std::span<Vec3> points) {
     return true;
 }
 
-/// True if the diagonal from corner 1 to corner 3 is to be taken, and not the one from 0 to 2: a diagonal outside the
-/// quad (its triangles face each other) is the worse one, else the one with the smaller smallest angle is.
-bool cut_from_second(const std::array<Vec3, 4>& p) {
-    const auto facing = [](const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-        return dot(cross(b - a, c - a), cross(c - a, d - a)) > 0;
-    };
-    const bool first = facing(p[0], p[1], p[2], p[3]);
-    const bool second = facing(p[1], p[2], p[3], p[0]);
-    if (first != second) return second;
-    return std::max(worst_cosine(p[1], p[2], p[3]), worst_cosine(p[3], p[0], p[1])) <
-           std::max(worst_cosine(p[0], p[1], p[2]), worst_cosine(p[2], p[3], p[0]));
+/// The area vector of a closed polygon, twice (Newell).
+Vec3 newell_normal(std::span<const Vec3> points) {
+    Vec3 normal;
+    for (std::size_t i = 0; i < points.size(); ++i) normal = normal + cross(points[i], points[(i + 1) % points.size()]);
+    return normal;
+}
+
+/// True if all triangles of the fan about the first corner face the same way as the polygon, so that they tile it.
+bool is_fan_sound(std::span<const Vec3> points) {
+    const Vec3 normal = newell_normal(points);
+    for (std::size_t i = 2; i < points.size(); ++i)
+        if (!(dot(cross(points[i - 1] - points[0], points[i] - points[0]), normal) > 0)) return false;
+    return true;
 }
 
 void cut_fan(std::size_t n, std::vector<Triangle>& triangles) {
@@ -108,11 +110,9 @@ public:
 private:
     static constexpr double not_an_ear = 2;
 
-    /// Drops the axis along which the polygon's normal (Newell) is largest; keeps it turning counter-clockwise.
+    /// Drops the axis along which the polygon's normal is largest; keeps it turning counter-clockwise.
     void project(std::span<const Vec3> points) {
-        Vec3 normal;
-        for (std::size_t i = 0; i < points.size(); ++i)
-            normal = normal + cross(points[i], points[(i + 1) % points.size()]);
+        const Vec3 normal = newell_normal(points);
         int axis = 0;
         for (const int other : {1, 2}) {
             if (std::fabs(normal[other]) > std::fabs(normal[axis])) axis = other;
@@ -164,13 +164,8 @@ public:
     /// The triangles of a polygon with more than three corners, as places in it.
     const std::vector<Triangle>& cut(std::span<const std::uint32_t> polygon) {
         const std::size_t n = polygon.size();
-        if (n > most_clipped || !take_points(polygon) || !normalise(local_)) {
-            cut_fan(n, triangles_);
-        } else if (n == 4) {
-            cut_quad();
-        } else if (!clipper_.cut(local_, triangles_)) {
-            cut_fan(n, triangles_);
-        }
+        const bool is_fan = !take_points(polygon) || !normalise(local_) || is_fan_sound(local_) || n > most_clipped;
+        if (is_fan || !clipper_.cut(local_, triangles_)) cut_fan(n, triangles_);
         return triangles_;
     }
 
@@ -183,15 +178,6 @@ private:
             local_.push_back(points_[vertex]);
         }
         return true;
-    }
-
-    void cut_quad() {
-        triangles_.clear();
-        if (cut_from_second({local_[0], local_[1], local_[2], local_[3]})) {
-            triangles_.assign({{1, 2, 3}, {1, 3, 0}});
-        } else {
-            triangles_.assign({{0, 1, 2}, {0, 2, 3}});
-        }
     }
 
     std::span<const Vec3> points_;

@@ -98,17 +98,17 @@ TEST(Triangulate, TrianglesStayInPlaceAndSmallFacesGo) {
     EXPECT_TRUE(soup.is_triangles());
 }
 
-TEST(Triangulate, QuadsTakeTheDiagonalWithTheBetterAngle) {
+TEST(Triangulate, ConvexPolygonsAndBentQuadsBecomeTheFanOfTheirFirstCorner) {
     for (int turn = 0; turn < 4; ++turn) {
-        std::vector<Vec3> rhombus{{-3, 0, 0}, {0, -1, 0}, {3, 0, 0}, {0, 1, 0}};
-        std::rotate(rhombus.begin(), rhombus.begin() + turn, rhombus.end());
-        PolygonSoup soup = one_polygon(rhombus);
+        std::vector<Vec3> bent{{-3, 0, 1}, {0, -1, 0}, {3, 0, 1}, {0, 1, 0}};
+        std::rotate(bent.begin(), bent.begin() + turn, bent.end());
+        PolygonSoup soup = one_polygon(bent);
         triangulate(soup);
-        // The short diagonal joins the two points with x = 0: both triangles hold both.
-        for (const double y : {-1.0, 1.0}) {
-            EXPECT_EQ(std::ranges::count_if(soup.corners, [&](auto v) { return soup.points[v] == Vec3{0, y, 0}; }), 2);
-        }
+        EXPECT_EQ(soup.corners, (Polygon{0, 1, 2, 0, 2, 3}));
     }
+    PolygonSoup hexagon = one_polygon({{2, 0, 0}, {1, 2, 0}, {-1, 2, 0}, {-2, 0, 0}, {-1, -2, 0}, {1, -2, 0}});
+    triangulate(hexagon);
+    EXPECT_EQ(hexagon.corners, (Polygon{0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 5}));
 }
 
 TEST(Triangulate, ConcaveQuadsAreCutInside) {

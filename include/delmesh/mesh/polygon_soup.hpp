@@ -39,10 +39,11 @@ struct PolygonSoup {
 };
 
 /// Splits every polygon into triangles (faces with fewer than three corners are left out), in place; triangles stay as
-/// they are. Quads are cut along the diagonal that gives the better smallest angle, other polygons by ear clipping in
-/// their mean plane. A polygon that can not be cut that way (self-crossing, degenerate) becomes a fan.
-/// Cost: O(corners) for triangles and quads, O(n^2) for a single n-gon of up to 1,000 corners; larger ones become a
-/// fan.
+/// they are. A polygon becomes the fan about its first corner, as in nearly every program, so that all see the same
+/// surface where it is not flat. If that would fold over (the polygon is concave or has a flat corner), its ears are
+/// clipped in its mean plane, those with large angles first; and if that fails too (self-crossing, degenerate, above
+/// 1,000 corners), it becomes the fan all the same.
+/// Cost: O(corners) for fans, O(n^2) for an n-gon whose ears are clipped.
 void triangulate(PolygonSoup& soup);
 
 }  // namespace delmesh
