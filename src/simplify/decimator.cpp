@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace delmesh {
 namespace {
@@ -14,6 +15,10 @@ namespace {
 constexpr double cost_tolerance = 1e-3;
 /// Collapses between two looks at the context.
 constexpr std::size_t report_interval = 1024;
+/// A squared distance, local unit, that may be all rounding.
+constexpr double rounding2 = 1e-14;
+/// When nothing else is left, the allowed squared distance grows to this much more than the smallest one asked for.
+constexpr double raise = 1.1;
 
 /// Brings the mesh to about unit size, exactly.
 double power_of_two_scale(const Mesh& mesh) {
@@ -61,21 +66,24 @@ Decimator::Decimator(Mesh& mesh, const Tuning& tuning, const DecimatorLimits& li
 
 void Decimator::enqueue_all() {
     queue_.reset(mesh_.halfedge_count());
+    parked_.clear();
+    raised2_ = 0;
     for (std::size_t i = 0; i < mesh_.halfedge_count(); ++i) {
         const HalfedgeId h(i);
-        blocked_.remove(h);
+        forget(h);
         if (mesh_.origin(h).valid() && mesh_.names_edge(h)) queue_.append(key_of(h), h.value());
     }
     queue_.heapify();
 }
 
-std::size_t Decimator::refit(Refitter& refitter, const RefitTuning& tuning, const Context* context) {
+std::size_t Decimator::refit(const RefitTuning& tuning, const Context* context) {
     const auto settle = [this](const Vec3& w) { return settled(w); };
     const auto moved = [this](VertexId v, const Vec3& w) {
         if (recorder_ != nullptr) recorder_->moved(v, mesh_.point(v));
         weights_.set_history(v, weights_.history(v).moved_to((w - mesh_.point(v)) * scale_));
     };
-    const std::size_t moves = refitter.run(mesh_, merged_into_, placer_, tuning, settle, moved, context);
+    Refitter refitter(mesh_, *samples_, placer_, scale_, settle, moved);
+    const std::size_t moves = refitter.run(tuning, allowed2(), context);
     for (std::size_t v = 0; v < mesh_.vertex_count(); ++v)
         if (mesh_.halfedge(VertexId(v)).valid()) weights_.refresh(VertexId(v));
     enqueue_all();
@@ -101,52 +109,99 @@ double Decimator::key_of(HalfedgeId h) const {
     return std::max(0.0, cost.steered(factors ? factors->lowest : cost.middle));
 }
 
-/// The volume under the star is kept where normal.w = offset.
+/// The volume under the star is kept where normal.w = offset. Where the faces look in many directions that says little
+/// about w, and counts less.
 void Decimator::add_volume(EdgeCost& cost) const {
     Vec3 normal;
     double offset = 0;
+    double area = 0;
+    const auto add = [&](const Vec3& n) {
+        normal = normal + n;
+        area += std::sqrt(squared_norm(n));
+    };
     for (std::size_t i = 0; i < star_.face_count(); ++i) {
-        normal = normal + star_.ring[i].old_normal;
+        add(star_.ring[i].old_normal);
         offset += dot(star_.ring[i].old_normal, star_.ring[i].point);
     }
-    for (int i = 0; i < star_.dying_count; ++i) normal = normal + star_.dying[i];  // through u, the origin
-    const double n2 = squared_norm(normal);
-    if (n2 > 0) cost.steered.add_plane(normal, offset, tuning_.volume * cost.trace / n2);
+    for (int i = 0; i < star_.dying_count; ++i) add(star_.dying[i]);  // through u, the origin
+    if (area > 0) cost.steered.add_plane(normal, offset, tuning_.volume * cost.trace / (area * area));
 }
 
 void Decimator::enqueue(HalfedgeId h) {
-    blocked_.remove(h);
+    forget(h);
     queue_.set(key_of(h), h.value());
 }
 
-void Decimator::block(HalfedgeId h, Blocker why) {
+/// h waits for nothing any more.
+void Decimator::forget(HalfedgeId h) {
+    blocked_[h.index()] = Blocker::none;
+    ++stamp_[h.index()];
+}
+
+Decimator::Watch Decimator::wait(HalfedgeId h, Blocker why) {
     ++counts_.blocked[static_cast<std::size_t>(why)];
-    blocked_.set(h, why);
-    const std::uint32_t stamp = ++stamp_[h.index()];
-    const auto watch = [&](VertexId v) {
-        if (v.valid()) watches_.add(v, {h, stamp});
-    };
-    if (why == Blocker::fold || why == Blocker::subtending || why == Blocker::incident) {
-        // Only the vertices of the condition that failed.
-        const std::size_t i = placer_.witness();
-        const std::size_t j = star_.after(i);
-        watch(star_.ring[i].vertex), watch(star_.ring[j].vertex), watch(star_.ring[star_.after(j)].vertex);
-        watch(star_.ring[i].outer);
-    } else {
-        for (const Star::Corner& corner : star_.ring) watch(corner.vertex);
-    }
+    blocked_[h.index()] = why;
+    return {h, ++stamp_[h.index()]};
+}
+
+void Decimator::watch_ring(const Watch& watch) {
+    for (const Star::Corner& corner : star_.ring) watches_.add(corner.vertex, watch);
+}
+
+void Decimator::block(HalfedgeId h, Blocker why) {
+    const Watch watch = wait(h, why);
+    if (why != Blocker::fold && why != Blocker::subtending && why != Blocker::incident) return watch_ring(watch);
+    // Only the vertices of the condition that failed.
+    const std::size_t i = placer_.witness();
+    const std::size_t j = star_.after(i);
+    for (const VertexId v : {star_.ring[i].vertex, star_.ring[j].vertex, star_.ring[star_.after(j)].vertex})
+        watches_.add(v, watch);
+    if (star_.ring[i].outer.valid()) watches_.add(star_.ring[i].outer, watch);
 }
 
 std::array<std::size_t, blocker_count> Decimator::count_blocked() const {
     std::array<std::size_t, blocker_count> counts{};
-    for (std::size_t i = 0; i < mesh_.halfedge_count(); ++i)
-        if (const Blocker* why = blocked_.find(HalfedgeId(i))) ++counts[static_cast<std::size_t>(*why)];
+    for (const Blocker why : blocked_) ++counts[static_cast<std::size_t>(why)];
     return counts;
+}
+
+void Decimator::guard_for(std::size_t vertices) {
+    guarded_ = static_cast<std::size_t>(std::min(1e18, tuning_.guard * static_cast<double>(vertices)));
+}
+
+/// The largest squared distance that a collapse may leave between the samples and the surface.
+double Decimator::allowed2() const {
+    return std::max({tuning_.reach * tuning_.reach * samples_->mean2(), raised2_, rounding2});
+}
+
+void Decimator::park(HalfedgeId h, double distance2) {
+    ++counts_.parked;
+    const Watch watch = wait(h, Blocker::distance);
+    watch_ring(watch);
+    parked_.push_back({distance2, watch});
+    std::push_heap(parked_.begin(), parked_.end(), std::greater<>());
+}
+
+/// Puts back into the queue what may be collapsed now.
+void Decimator::release_parked() {
+    while (!parked_.empty()) {
+        const Parked first = parked_.front();
+        const bool outdated = stamp_[first.watch.edge.index()] != first.watch.stamp;
+        if (!outdated && first.distance2 > allowed2()) {
+            if (!queue_.empty()) return;
+            raised2_ = first.distance2 * raise;
+        }
+        std::pop_heap(parked_.begin(), parked_.end(), std::greater<>());
+        parked_.pop_back();
+        if (!outdated) enqueue(first.watch.edge);
+    }
 }
 
 void Decimator::run(std::size_t vertices, const Context* context) {
     const std::size_t start = vertices_;
-    while (vertices_ > vertices && !queue_.empty()) {
+    while (vertices_ > vertices) {
+        if (samples_) release_parked();
+        if (queue_.empty()) return;
         if (++counts_.popped % report_interval == 0) {
             if (is_cancelled(context)) return;
             report_progress(context, "simplify",
@@ -188,6 +243,12 @@ void Decimator::process(const Queue::Entry& entry) {
     Quadric merged = weights_.history(star_.u).moved_to(local);
     merged += weights_.history(star_.v).moved_to(local - star_.v_point);
     if (exceeds_error(merged)) return block(h, Blocker::error);
+    if (samples_) {
+        samples_->gather(star_);
+        const SampleError after = samples_->measure(star_, local);
+        const double allowed = std::max(allowed2(), samples_->present().forward);
+        if (vertices_ <= guarded_ && after.worst() > allowed) return park(h, after.worst());
+    }
     accept(h, w, merged);
 }
 
@@ -197,7 +258,7 @@ void Decimator::accept(HalfedgeId h, const Vec3& w, const Quadric& merged) {
     const auto drop = [&](HalfedgeId at) {
         const HalfedgeId e = Mesh::halfedge(mesh_.edge(at));
         queue_.remove(e.value());
-        blocked_.remove(e);
+        forget(e);
     };
     const HalfedgeId t = mesh_.twin(h);
     drop(Mesh::next(h)), drop(Mesh::prev(h));
@@ -206,6 +267,7 @@ void Decimator::accept(HalfedgeId h, const Vec3& w, const Quadric& merged) {
         recorder_->collapsed(kept, gone, mesh_.apex(h), t.valid() ? mesh_.apex(t) : VertexId(), mesh_.point(kept),
                              mesh_.point(gone));
     collapse(mesh_, h, w);
+    if (samples_) samples_->commit(star_);
     merged_into_[gone.index()] = kept;
     --vertices_;
     ++counts_.collapses;
@@ -222,7 +284,7 @@ void Decimator::wake(VertexId v) {
     woken_.clear();
     watches_.take(v, woken_);
     for (const Watch& watch : woken_) {
-        if (blocked_.find(watch.edge) == nullptr || stamp_[watch.edge.index()] != watch.stamp) continue;
+        if (stamp_[watch.edge.index()] != watch.stamp) continue;
         ++counts_.woken;
         enqueue(watch.edge);
     }

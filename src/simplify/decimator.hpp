@@ -7,7 +7,7 @@
 #include "simplify/queue.hpp"
 #include "simplify/recorder.hpp"
 #include "simplify/refit.hpp"
-#include "simplify/slots.hpp"
+#include "simplify/samples.hpp"
 #include "simplify/star.hpp"
 #include "simplify/tuning.hpp"
 #include "simplify/watchlists.hpp"
@@ -15,6 +15,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace delmesh {
@@ -25,7 +26,7 @@ struct DecimatorLimits {
 };
 
 struct DecimatorCounts {
-    std::size_t collapses = 0, popped = 0, requeued = 0, woken = 0;
+    std::size_t collapses = 0, popped = 0, requeued = 0, woken = 0, parked = 0;
     std::array<std::size_t, blocker_count> blocked{};
 };
 
@@ -37,8 +38,16 @@ public:
     /// Collapses until so many vertices are left, nothing can be collapsed any more, or the context is cancelled.
     void run(std::size_t vertices, const Context* context = nullptr);
 
-    /// Moves vertices towards the samples; returns how many moves it took.
-    std::size_t refit(Refitter& refitter, const RefitTuning& tuning, const Context* context = nullptr);
+    /// From now on samples of the surface as it is, with its first `count` vertices, are followed.
+    void follow_samples(std::size_t count) { samples_.emplace(mesh_, count, scale_); }
+    /// On the last part of the way to so many vertices, collapses must not leave a sample far from the surface, nor the
+    /// surface far from the samples: such edges wait until the mean error has grown or nothing else is left.
+    void guard_for(std::size_t vertices);
+    /// Moves vertices towards the samples that are followed; returns how many moves it took.
+    std::size_t refit(const RefitTuning& tuning, const Context* context = nullptr);
+
+    /// Requires `follow_samples`.
+    [[nodiscard]] SurfaceSamples& samples() { return *samples_; }
     [[nodiscard]] double scale() const { return scale_; }
 
     /// Vertices that have faces.
@@ -50,17 +59,32 @@ public:
     [[nodiscard]] const Placer& placer() const { return placer_; }
 
 private:
-    /// An edge that waits for a vertex to change; outdated if its stamp is.
+    /// An edge that waits for something to change; outdated if its stamp is.
     struct Watch {
         HalfedgeId edge;
         std::uint32_t stamp = 0;
+    };
+    /// An edge that waits until so large a distance is allowed.
+    struct Parked {
+        double distance2 = 0;
+        Watch watch;
+
+        friend bool operator>(const Parked& a, const Parked& b) {
+            return a.distance2 > b.distance2 || (a.distance2 == b.distance2 && a.watch.edge > b.watch.edge);
+        }
     };
     [[nodiscard]] EdgeCost cost_of(HalfedgeId h) const;
     [[nodiscard]] double key_of(HalfedgeId h) const;
     void add_volume(EdgeCost& cost) const;
     void enqueue_all();
     void enqueue(HalfedgeId h);
+    void forget(HalfedgeId h);
+    [[nodiscard]] Watch wait(HalfedgeId h, Blocker why);
+    void watch_ring(const Watch& watch);
     void block(HalfedgeId h, Blocker why);
+    [[nodiscard]] double allowed2() const;
+    void park(HalfedgeId h, double distance2);
+    void release_parked();
     void process(const Queue::Entry& entry);
     [[nodiscard]] Vec3 settled(const Vec3& w) const;
     [[nodiscard]] bool exceeds_error(const Quadric& merged);
@@ -77,11 +101,15 @@ private:
     std::size_t vertices_ = 0;
     double worst_error_ = 0;
     std::vector<VertexId> merged_into_;
-    Slots<Blocker> blocked_;
-    std::vector<std::uint32_t> stamp_;  ///< per half-edge: how often it was blocked
+    std::vector<Blocker> blocked_;      ///< per half-edge: what it waits for
+    std::vector<std::uint32_t> stamp_;  ///< per half-edge: how often that has changed
     Watchlists<Watch> watches_;
     std::vector<Watch> woken_;
+    std::vector<Parked> parked_;  ///< a heap, the smallest distance first
     Queue queue_;
+    std::optional<SurfaceSamples> samples_;
+    std::size_t guarded_ = 0;
+    double raised2_ = 0;  ///< allowed because nothing else was left
     Star star_;
     DecimatorCounts counts_;
 };

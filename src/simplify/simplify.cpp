@@ -79,7 +79,8 @@ LevelReport describe_level(const Decimator& decimator, std::size_t target, const
     level.quadric_error = decimator.worst_error();
     const auto blocked = decimator.count_blocked();
     for (std::size_t i = 1; i < blocked.size(); ++i)
-        level.blocked[static_cast<std::size_t>(obstacle(static_cast<Blocker>(i)))] += blocked[i];
+        if (static_cast<Blocker>(i) != Blocker::distance)  // those would have their turn
+            level.blocked[static_cast<std::size_t>(obstacle(static_cast<Blocker>(i)))] += blocked[i];
     if (level.vertices <= target) return level;
     level.stop = is_cancelled(context)                                          ? SimplifyStop::cancelled
                  : level.blocked[static_cast<std::size_t>(Obstacle::error)] > 0 ? SimplifyStop::error_limit
@@ -101,13 +102,13 @@ Mesh without_dead(const Mesh& mesh) {
 
 /// Quadrics of the current faces drift away from the original: every time the vertices have become half as many, they
 /// are moved back.
-std::size_t refit_on_the_way(Decimator& decimator, Refitter& refitter, std::size_t input_vertices, std::size_t target,
+std::size_t refit_on_the_way(Decimator& decimator, std::size_t input_vertices, std::size_t target,
                              const Context* context) {
     std::size_t moves = 0;
     for (std::size_t stop = input_vertices / 4; stop > target + target / 2 && !is_cancelled(context); stop /= 2) {
         if (stop >= decimator.vertices()) continue;
         decimator.run(stop, context);
-        moves += decimator.refit(refitter, {.rounds = 1}, context);
+        moves += decimator.refit({.rounds = 1}, context);
     }
     return moves;
 }
@@ -147,15 +148,15 @@ SimplifyReport run(Mesh& mesh, const SimplifyOptions& options, ProgressiveMesh* 
     }
     Decimator decimator(mesh, tuning_for(options), {options.max_quadric_error_rel * diagonal, options.remesh.precision},
                         record != nullptr ? &recorder : nullptr);
-    std::optional<Refitter> refitter;
-    if (options.refit && options.max_quadric_error_rel == 0 && options.placement == Placement::best)
-        refitter.emplace(mesh, report.input_vertices, decimator.scale());
+    const bool refit = options.refit && options.max_quadric_error_rel == 0 && options.placement == Placement::best;
+    if (refit) decimator.follow_samples(report.input_vertices);
     const std::vector<std::size_t> targets = find_targets(options, report.input_vertices);
     for (const std::size_t target : targets) {
-        if (refitter) report.moves += refit_on_the_way(decimator, *refitter, report.input_vertices, target, context);
+        decimator.guard_for(target);
+        if (refit) report.moves += refit_on_the_way(decimator, report.input_vertices, target, context);
         decimator.run(target, context);
         report.levels.push_back(describe_level(decimator, target, context));
-        if (refitter && decimator.counts().collapses > 0) report.moves += decimator.refit(*refitter, {}, context);
+        if (refit && decimator.counts().collapses > 0) report.moves += decimator.refit({}, context);
         report.stop = report.levels.back().stop;
         const bool last = target == targets.back() || report.stop == SimplifyStop::cancelled;
         if (last) break;

@@ -29,14 +29,19 @@ public:
 
     void add_end(VertexId vertex) {
         star_.ring.push_back(
-            {.vertex = vertex, .outer = {}, .point = local(vertex), .old_normal = {}, .outer_point = {}});
+            {.vertex = vertex, .face = {}, .outer = {}, .point = local(vertex), .old_normal = {}, .outer_point = {}});
     }
 
 private:
     [[nodiscard]] Vec3 local(VertexId v) const { return star_.frame.to_local(mesh_.point(v)); }
 
     void add_corner(HalfedgeId at, const Vec3& centre) {
-        Star::Corner corner{.vertex = mesh_.target(at), .outer = {}, .point = {}, .old_normal = {}, .outer_point = {}};
+        Star::Corner corner{.vertex = mesh_.target(at),
+                            .face = Mesh::face(at),
+                            .outer = {},
+                            .point = {},
+                            .old_normal = {},
+                            .outer_point = {}};
         corner.point = local(corner.vertex);
         const Vec3 next = local(mesh_.apex(at));
         corner.old_normal = cross(corner.point - centre, next - centre);
@@ -110,7 +115,9 @@ bool gather(const Mesh& mesh, HalfedgeId h, double scale, Star& star) {
     star.closed = !u_open && !v_open;
     star.ring.clear();
     star.dying_count = 0;
+    star.dying_face[0] = Mesh::face(h);
     star.dying[star.dying_count++] = face_normal(star, star.frame.to_local(mesh.point(mesh.apex(h))));
+    if (t.valid()) star.dying_face[1] = Mesh::face(t);
     if (t.valid()) star.dying[star.dying_count++] = -face_normal(star, star.frame.to_local(mesh.point(mesh.apex(t))));
     if (star.closed) return gather_closed(mesh, h, star);
     if (t.valid() && v_open) return gather_open(mesh, t, star, star.v_point, star.u_point);

@@ -18,13 +18,15 @@ enum class Blocker : unsigned char {
     region,    ///< the half-spaces of the paper have no point in common
     rounding,  ///< all held in floating point, but not exactly
     error,
+    distance,  ///< a sample of the original would be too far away
 };
-inline constexpr std::size_t blocker_count = 8;
+inline constexpr std::size_t blocker_count = 9;
 
 /// Surviving face i is (w, ring[i], ring[i+1]); in a closed star the last one ends at ring[0].
 struct Star {
     struct Corner {
         VertexId vertex;
+        FaceId face;           ///< the face that starts here; not valid at the end of an open star
         VertexId outer;        ///< the vertex behind the ring edge that starts here; not valid at the boundary
         Vec3 point;            ///< local
         Vec3 old_normal;       ///< of the face that starts here, before the collapse; twice its area long
@@ -39,6 +41,7 @@ struct Star {
     std::vector<Corner> ring;
     /// Normals of the one or two faces that die, and the local point u that lies in both.
     Vec3 dying[2];
+    FaceId dying_face[2];
     int dying_count = 0;
 
     [[nodiscard]] std::size_t face_count() const { return closed ? ring.size() : ring.size() - 1; }

@@ -67,8 +67,9 @@ struct SimplifyOptions {
     double max_quadric_error_rel = 0;
     /// Creases sharper than this keep their shape as the boundary does; 180: none are treated apart.
     double feature_angle_deg = 180;
-    /// Moves vertices closer to samples of the original surface when a level is reached, and now and then on the way.
-    /// Only with placement `best` and without `max_quadric_error_rel`.
+    /// Follows samples of the original surface: when a level is reached, and now and then on the way, vertices are
+    /// moved closer to them, and collapses that would leave one of them far off wait until the others are done. Only
+    /// with placement `best` and without `max_quadric_error_rel`.
     bool refit = true;
     /// How an input that is not Delaunay yet is made so. `remesh.precision` is also what new vertices are rounded to.
     RemeshOptions remesh = default_remesh();
@@ -102,7 +103,7 @@ struct SimplifyOptions {
                                                  .lowest = 0,
                                                  .highest = 180,
                                                  .help = "creases sharper than this keep their shape; 180: none"});
-        visit(self.refit, OptionInfo{.name = "refit", .help = "move vertices closer to the original at each level"});
+        visit(self.refit, OptionInfo{.name = "refit", .help = "stay close to samples of the original"});
     }
 };
 

@@ -1,0 +1,164 @@
+#include "simplify/samples.hpp"
+
+#include "simplify/walk.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace delmesh {
+
+SurfaceSamples::SurfaceSamples(const Mesh& mesh, std::size_t count, double scale) : first_(mesh.face_count(), none) {
+    const auto normal_of = [&](HalfedgeId h) {
+        const Frame frame{scale, 1 / scale, mesh.point(mesh.origin(h))};
+        return cross(frame.to_local(mesh.point(mesh.target(h))), frame.to_local(mesh.point(mesh.apex(h))));
+    };
+    const std::size_t vertices = std::min(count, mesh.vertex_count());
+    samples_.reserve(vertices + mesh.face_count());
+    for (std::size_t i = 0; i < vertices; ++i) {
+        const VertexId v(i);
+        if (!mesh.halfedge(v).valid()) continue;
+        Vec3 normal;
+        each_outgoing(mesh, v, [&](HalfedgeId h) { normal = normal + normal_of(h); });
+        add(mesh.point(v), normal * (1.0 / 12), Mesh::face(mesh.halfedge(v)));
+    }
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        const HalfedgeId h = Mesh::halfedge(FaceId(f));
+        const Vec3 third = (mesh.point(mesh.origin(h)) * (1.0 / 3) + mesh.point(mesh.target(h)) * (1.0 / 3)) +
+                           mesh.point(mesh.apex(h)) * (1.0 / 3);
+        add(third, normal_of(h) * 0.75, FaceId(f));
+    }
+}
+
+void SurfaceSamples::add(const Vec3& point, const Vec3& normal, FaceId face) {
+    Sample sample;
+    sample.point = point;
+    const double length = std::sqrt(squared_norm(normal));
+    if (length > 0)
+        for (int axis = 0; axis < 3; ++axis) sample.normal[axis] = static_cast<float>(normal[axis] / length);
+    sample.weight = static_cast<float>(length);
+    weight_ += sample.weight;
+    sample.next = first_[face.index()];
+    first_[face.index()] = static_cast<std::uint32_t>(samples_.size());
+    samples_.push_back(sample);
+}
+
+void SurfaceSamples::gather(const Star& star) {
+    members_.clear();
+    present_ = {};
+    const auto take = [&](FaceId f, std::size_t face) {
+        for (std::uint32_t i = first_[f.index()]; i != none; i = samples_[i].next) {
+            const Sample& s = samples_[i];
+            members_.push_back({star.frame.to_local(s.point), i, static_cast<std::uint32_t>(face), s.distance2});
+            present_.sum += static_cast<double>(s.weight) * s.distance2;
+            present_.forward = std::max<double>(present_.forward, s.distance2);
+        }
+    };
+    for (std::size_t i = 0; i < star.face_count(); ++i) take(star.ring[i].face, i);
+    for (int i = 0; i < star.dying_count; ++i) take(star.dying_face[i], 0);
+}
+
+void SurfaceSamples::prepare(const Star& star, const Vec3& w) {
+    const std::size_t size = star.ring.size();
+    spokes_.resize(size);
+    for (std::size_t i = 0; i < size; ++i) {
+        spokes_[i].arm = star.ring[i].point - w;
+        spokes_[i].length2 = squared_norm(spokes_[i].arm);
+    }
+    for (std::size_t i = 0; i < star.face_count(); ++i) {
+        Spoke& s = spokes_[i];
+        const Spoke& next = spokes_[star.after(i)];
+        s.dot_next = dot(s.arm, next.arm);
+        s.normal = cross(s.arm, next.arm);
+        s.inverse2 = 1 / squared_norm(s.normal);
+    }
+}
+
+/// The nearest point of each triangle (centre, ring[i], ring[i+1]), after Ericson 2005, section 5.1.5, with all that
+/// does not depend on the sample taken out.
+void SurfaceSamples::attach(Member& member, std::size_t faces, const Vec3& from_centre) const {
+    const double to_centre2 = squared_norm(from_centre);
+    member.distance2 = to_centre2;
+    const double first = dot(spokes_[0].arm, from_centre);
+    double along = first;
+    for (std::size_t i = 0; i < faces; ++i) {
+        const Spoke& b = spokes_[i];
+        const std::size_t j = i + 1 == spokes_.size() ? 0 : i + 1;
+        const Spoke& c = spokes_[j];
+        const double d1 = along;
+        const double d2 = along = j == 0 ? first : dot(c.arm, from_centre);
+        if (d1 <= 0 && d2 <= 0) continue;  // the centre
+        const double d3 = d1 - b.length2, d4 = d2 - b.dot_next;
+        const double d5 = d1 - b.dot_next, d6 = d2 - c.length2;
+        double distance2;
+        if (d3 >= 0 && d4 <= d3) {
+            distance2 = to_centre2 - (d1 + d3);
+        } else if (d6 >= 0 && d5 <= d6) {
+            distance2 = to_centre2 - (d2 + d6);
+        } else if (d1 * d4 <= d3 * d2 && d1 >= 0 && d3 <= 0) {
+            distance2 = to_centre2 - d1 * d1 / b.length2;
+        } else if (d5 * d2 <= d1 * d6 && d2 >= 0 && d6 <= 0) {
+            distance2 = to_centre2 - d2 * d2 / c.length2;
+        } else if (d3 * d6 <= d5 * d4 && d4 >= d3 && d5 >= d6) {
+            const double side2 = (d4 - d3) + (d5 - d6);
+            distance2 = to_centre2 - (d1 + d3) - (d4 - d3) * ((d4 - d3) / side2);
+        } else {
+            const double height = dot(b.normal, from_centre);
+            distance2 = height * height * b.inverse2;
+        }
+        if (distance2 < member.distance2) {
+            member.distance2 = std::max(0.0, distance2);
+            member.face = static_cast<std::uint32_t>(i);
+        }
+    }
+}
+
+SampleError SurfaceSamples::measure(const Star& star, const Vec3& w) {
+    prepare(star, w);
+    last_ = {};
+    for (Member& m : members_) {
+        m.face = std::min<std::uint32_t>(m.face, static_cast<std::uint32_t>(star.face_count() - 1));
+        attach(m, star.face_count(), m.point - w);
+        last_.sum += samples_[m.sample].weight * static_cast<double>(static_cast<float>(m.distance2));
+        last_.forward = std::max(last_.forward, m.distance2);
+    }
+    last_.backward = measure_backward(star, w);
+    return last_;
+}
+
+double SurfaceSamples::measure_backward(const Star& star, const Vec3& w) const {
+    double worst = height2(w);
+    for (std::size_t i = 0; i < star.face_count(); ++i)
+        worst = std::max(worst, height2((w + star.ring[i].point + star.ring[star.after(i)].point) * (1.0 / 3)));
+    return worst;
+}
+
+/// The squared height of x over the tangent plane of the nearest sample.
+double SurfaceSamples::height2(const Vec3& x) const {
+    double best = -1;
+    std::uint32_t nearest = none;
+    for (const Member& m : members_) {
+        const double distance2 = squared_norm(x - m.point);
+        if (best >= 0 && !(distance2 < best)) continue;
+        best = distance2;
+        nearest = static_cast<std::uint32_t>(&m - members_.data());
+    }
+    if (nearest == none) return 0;
+    const std::array<float, 3>& n = samples_[members_[nearest].sample].normal;
+    const double height = dot(x - members_[nearest].point, Vec3{n[0], n[1], n[2]});
+    return height * height;
+}
+
+void SurfaceSamples::commit(const Star& star) {
+    for (std::size_t i = 0; i < star.face_count(); ++i) first_[star.ring[i].face.index()] = none;
+    for (int i = 0; i < star.dying_count; ++i) first_[star.dying_face[i].index()] = none;
+    for (const Member& m : members_) {
+        Sample& s = samples_[m.sample];
+        s.distance2 = static_cast<float>(m.distance2);
+        std::uint32_t& first = first_[star.ring[m.face].face.index()];
+        s.next = first;
+        first = m.sample;
+    }
+    sum_ += last_.sum - present_.sum;
+}
+
+}  // namespace delmesh

@@ -1,0 +1,81 @@
+#pragma once
+// Samples of the original surface, each attached to the face of the present one that is nearest to it.
+
+#include "delmesh/mesh/mesh.hpp"
+#include "simplify/star.hpp"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace delmesh {
+
+/// Squared distances, local unit.
+struct SampleError {
+    double sum = 0;       ///< over the samples, times their weights
+    double forward = 0;   ///< the largest one from a sample to the star
+    double backward = 0;  ///< the largest one from a point of the star to the plane of the nearest sample
+
+    [[nodiscard]] double worst() const { return forward > backward ? forward : backward; }
+};
+
+/// The first `count` vertices of a mesh and the middles of its faces, followed through collapses and moves. A sample
+/// stays with the faces around the vertex that changed, so it keeps to its side of a thin part.
+class SurfaceSamples {
+public:
+    SurfaceSamples(const Mesh& mesh, std::size_t count, double scale);
+
+    struct Member {
+        Vec3 point;  ///< local to the star
+        std::uint32_t sample = 0;
+        std::uint32_t face = 0;  ///< of the star: where the sample is now, or goes to after `measure`
+        double distance2 = 0;
+    };
+
+    /// Takes the samples of the star in hand.
+    void gather(const Star& star);
+    [[nodiscard]] std::span<const Member> members() const { return members_; }
+    [[nodiscard]] double weight(const Member& m) const { return samples_[m.sample].weight; }
+    /// Of the star as it is now; `backward` is left out.
+    [[nodiscard]] const SampleError& present() const { return present_; }
+    /// Of the star with its centre at w, found afresh.
+    SampleError measure(const Star& star, const Vec3& w);
+    [[nodiscard]] double measure_backward(const Star& star, const Vec3& w) const;
+    /// Attaches the samples in hand as the last call of `measure` found.
+    void commit(const Star& star);
+
+    /// The mean squared distance of all samples.
+    [[nodiscard]] double mean2() const { return weight_ > 0 && sum_ > 0 ? sum_ / weight_ : 0; }
+
+private:
+    static constexpr std::uint32_t none = ~std::uint32_t{0};
+    struct Sample {
+        Vec3 point;
+        std::array<float, 3> normal{};
+        float weight = 0;
+        float distance2 = 0;
+        std::uint32_t next = none;
+    };
+    struct Spoke {
+        Vec3 arm;  ///< from the centre to ring[i]
+        double length2 = 0;
+        double dot_next = 0;  ///< with the arm after
+        Vec3 normal;
+        double inverse2 = 0;  ///< 1 / |normal|^2
+    };
+    void add(const Vec3& point, const Vec3& normal, FaceId face);
+    void prepare(const Star& star, const Vec3& w);
+    void attach(Member& member, std::size_t faces, const Vec3& from_centre) const;
+    [[nodiscard]] double height2(const Vec3& x) const;
+
+    double sum_ = 0;
+    double weight_ = 0;
+    std::vector<Sample> samples_;
+    std::vector<std::uint32_t> first_;  ///< per face
+    std::vector<Member> members_;
+    std::vector<Spoke> spokes_;
+    SampleError present_, last_;
+};
+
+}  // namespace delmesh

@@ -1,0 +1,116 @@
+#include "simplify/samples.hpp"
+
+#include "delmesh/delaunay/remesh.hpp"
+#include "delmesh/mesh/shapes.hpp"
+#include "delmesh/simplify/simplify.hpp"
+#include "simplify/decimator.hpp"
+#include "simplify/triangle_point.hpp"
+#include "support/random.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace delmesh {
+namespace {
+
+/// The nearest point of all faces of the star with its centre at w, one by one.
+double nearest2(const Star& star, const Vec3& w, const Vec3& p) {
+    double best = -1;
+    for (std::size_t i = 0; i < star.face_count(); ++i) {
+        const double d = nearest_on_triangle(p, w, star.ring[i].point, star.ring[star.after(i)].point).distance2;
+        if (best < 0 || d < best) best = d;
+    }
+    return best;
+}
+
+Mesh delaunay_sample(std::string_view name, std::size_t faces) {
+    Mesh mesh(make_sample(name, faces));
+    make_delaunay(mesh, SimplifyOptions::default_remesh());
+    return mesh;
+}
+
+class SamplesOf : public testing::TestWithParam<const char*> {};
+
+TEST_P(SamplesOf, AreMeasuredToTheNearestFaceOfTheStar) {
+    Mesh mesh = delaunay_sample(GetParam(), 2000);
+    SurfaceSamples samples(mesh, mesh.vertex_count(), 1);
+    test::Random random(7);
+    Star star;
+    for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+        gather(mesh, VertexId(v), 1, star);
+        samples.gather(star);
+        const double size = norm(star.ring[0].point);
+        const auto shift = [&] { return random.real(-0.5, 0.5) * size; };
+        const Vec3 w{shift(), shift(), shift()};
+        const SampleError error = samples.measure(star, w);
+        double worst = 0;
+        for (const SurfaceSamples::Member& m : samples.members()) {
+            const double expected = nearest2(star, w, m.point);
+            EXPECT_NEAR(m.distance2, expected, 1e-12 * size * size);
+            worst = std::max(worst, expected);
+        }
+        EXPECT_NEAR(error.forward, worst, 1e-12 * size * size);
+        EXPECT_GE(error.worst(), error.forward);
+    }
+}
+
+TEST_P(SamplesOf, AreAllKeptAndKnowTheirDistanceAfterDecimation) {
+    Mesh mesh = delaunay_sample(GetParam(), 3000);
+    const std::size_t faces = mesh.face_count();
+    const std::size_t vertices = mesh.vertex_count();
+    Decimator decimator(mesh, Tuning{});
+    decimator.follow_samples(vertices);
+    decimator.run(vertices / 4);
+    decimator.refit({});
+    decimator.run(vertices / 8);
+    std::size_t seen = 0;
+    Star star;
+    SurfaceSamples& samples = decimator.samples();
+    for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+        if (!mesh.halfedge(VertexId(v)).valid()) continue;
+        gather(mesh, VertexId(v), decimator.scale(), star);
+        samples.gather(star);
+        seen += samples.members().size();
+        for (const SurfaceSamples::Member& m : samples.members()) {
+            const TrianglePoint own =
+                nearest_on_triangle(m.point, {}, star.ring[m.face].point, star.ring[star.after(m.face)].point);
+            // Kept in single precision.
+            EXPECT_NEAR(std::sqrt(m.distance2), std::sqrt(own.distance2), 1e-6);
+        }
+    }
+    EXPECT_EQ(seen, 3 * (vertices + faces)) << "every sample lies on one face";
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, SamplesOf, testing::Values("noisy-sphere", "terrain", "torus"));
+
+TEST(Samples, GuardingKeepsTheWorstOneClose) {
+    const auto worst = [](const char* name, double guard) {
+        Mesh mesh = delaunay_sample(name, 6000);
+        Tuning tuning;
+        tuning.guard = guard;
+        Decimator decimator(mesh, tuning);
+        decimator.follow_samples(mesh.vertex_count());
+        decimator.guard_for(decimator.vertices() / 20);
+        decimator.run(decimator.vertices() / 20);
+        double forward2 = 0;
+        Star star;
+        for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+            if (!mesh.halfedge(VertexId(v)).valid()) continue;
+            gather(mesh, VertexId(v), decimator.scale(), star);
+            decimator.samples().gather(star);
+            forward2 = std::max(forward2, decimator.samples().present().forward);
+        }
+        return std::sqrt(forward2);
+    };
+    double guarded = 1;
+    double free = 1;
+    for (const char* name : {"noisy-sphere", "terrain", "noisy-surface"}) {
+        guarded *= worst(name, 3);
+        free *= worst(name, 0);
+    }
+    EXPECT_LT(guarded, 0.8 * free);
+}
+
+}  // namespace
+}  // namespace delmesh
