@@ -24,6 +24,24 @@ private:
     std::uint64_t length_ = 0;
 };
 
+/// Hands the elements of a file to the body that reads them, in their order.
+template <class Body>
+void read_elements(const PlyHeader& header, Body& body) {
+    for (std::size_t i = 0; i < header.elements.size(); ++i) {
+        const PlyElement& element = header.elements[i];
+        if (element.properties.empty() || element.count == 0) continue;
+        if (PlyHeader::is_vertex(element)) {
+            body.read_vertices(element);
+        } else if (PlyHeader::is_face(element)) {
+            body.read_faces(element, header.index_list[i]);
+        } else if (PlyHeader::is_strips(element)) {
+            body.read_strips(element, header.index_list[i]);
+        } else {
+            body.skip_records(element);
+        }
+    }
+}
+
 void read_ply_ascii(TextScanner& scanner, Input& input, const PlyHeader& header, SoupBuilder& builder);
 void read_ply_binary(Input& input, const PlyHeader& header, SoupBuilder& builder);
 

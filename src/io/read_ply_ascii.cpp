@@ -19,32 +19,6 @@ public:
           header_(header),
           builder_(builder) {}
 
-    void read() {
-        for (std::size_t i = 0; i < header_.elements.size(); ++i) {
-            const PlyElement& element = header_.elements[i];
-            if (element.properties.empty() || element.count == 0) continue;
-            if (PlyHeader::is_vertex(element)) {
-                read_vertices(element);
-            } else if (PlyHeader::is_face(element)) {
-                read_faces(element, header_.index_list[i]);
-            } else if (PlyHeader::is_strips(element)) {
-                read_strips(element, header_.index_list[i]);
-            } else {
-                skip_records(element);
-            }
-        }
-    }
-
-private:
-    void begin_record(const PlyElement& element, std::uint64_t index) {
-        do {
-            if (!scanner_.next_line()) {
-                scanner_.fail(fmt::format("expected {} {} of {}, found the end of the file", printable(element.name),
-                                          index, element.count));
-            }
-        } while (scanner_.line_is_done());
-    }
-
     void read_vertices(const PlyElement& element) {
         std::vector<Vec3>& points = builder_.soup.points;
         points.reserve(input_.plausible(element.count, element.least_size(true)));
@@ -111,6 +85,16 @@ private:
         }
     }
 
+private:
+    void begin_record(const PlyElement& element, std::uint64_t index) {
+        do {
+            if (!scanner_.next_line()) {
+                scanner_.fail(fmt::format("expected {} {} of {}, found the end of the file", printable(element.name),
+                                          index, element.count));
+            }
+        } while (scanner_.line_is_done());
+    }
+
     template <class ReadIndex>
     void for_record(const PlyElement& element, std::size_t list, ReadIndex&& read_one) {
         for (std::size_t i = 0; i < element.properties.size(); ++i) {
@@ -158,7 +142,8 @@ private:
 }  // namespace
 
 void read_ply_ascii(TextScanner& scanner, Input& input, const PlyHeader& header, SoupBuilder& builder) {
-    AsciiBody(scanner, input, header, builder).read();
+    AsciiBody body(scanner, input, header, builder);
+    read_elements(header, body);
 }
 
 }  // namespace delmesh::io

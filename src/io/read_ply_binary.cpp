@@ -45,24 +45,6 @@ public:
           header_(header),
           builder_(builder) {}
 
-    void read() {
-        for (std::size_t i = 0; i < header_.elements.size(); ++i) {
-            const PlyElement& element = header_.elements[i];
-            if (element.properties.empty() || element.count == 0) continue;
-            if (PlyHeader::is_vertex(element)) {
-                read_vertices(element);
-            } else if (PlyHeader::is_face(element)) {
-                read_faces(element, header_.index_list[i]);
-            } else if (PlyHeader::is_strips(element)) {
-                read_strips(element, header_.index_list[i]);
-            } else {
-                skip_records(element);
-            }
-        }
-    }
-
-private:
-    // --- vertices ---
     void read_vertices(const PlyElement& element) {
         std::vector<Vec3>& points = builder_.soup.points;
         points.reserve(input_.plausible(element.count, element.least_size(false)));
@@ -75,6 +57,50 @@ private:
         }
     }
 
+    void read_faces(const PlyElement& element, std::size_t list) {
+        const PlyProperty& indices = element.properties[list];
+        builder_.soup.corners.reserve(input_.plausible(3 * element.count, size_of(indices.type)));
+        const bool usual =
+            element.properties.size() == 1 && size_of(indices.count_type) == 1 && size_of(indices.type) == 4;
+        for (std::uint64_t f = 0; f < element.count;) {
+            if (usual) f += read_plain_triangles(element.count - f);
+            if (f == element.count) break;
+            for_record(element, f, list, [&](std::uint64_t vertex) {
+                check_index(element, f, vertex);
+                builder_.add_corner(static_cast<std::uint32_t>(vertex));
+            });
+            builder_.end_face();
+            ++f;
+        }
+    }
+
+    void read_strips(const PlyElement& element, std::size_t list) {
+        for (std::uint64_t s = 0; s < element.count; ++s) {
+            StripBuilder strip(builder_);
+            for_record(element, s, list, [&](std::uint64_t vertex) {
+                if (vertex == separator) {
+                    strip.restart();
+                    return;
+                }
+                check_index(element, s, vertex);
+                strip.add(static_cast<std::uint32_t>(vertex));
+            });
+        }
+    }
+
+    void skip_records(const PlyElement& element) {
+        if (!element.has_lists()) {
+            const std::size_t stride = element.least_size(false);
+            const bool overflows = element.count > std::numeric_limits<std::uint64_t>::max() / stride;
+            if (overflows || !input_.skip_far(element.count * stride)) fail_truncated(element, element.count);
+            return;
+        }
+        for (std::uint64_t i = 0; i < element.count; ++i) {
+            for_record(element, i, element.properties.size(), [](std::uint64_t) {});
+        }
+    }
+
+private:
     static PlyType type_of(const PlyElement& element, const char* property) {
         return element.properties[element.find(property)].type;
     }
@@ -129,24 +155,6 @@ private:
         return static_cast<double>(load<T, order>(from));
     }
 
-    // --- faces and strips ---
-    void read_faces(const PlyElement& element, std::size_t list) {
-        const PlyProperty& indices = element.properties[list];
-        builder_.soup.corners.reserve(input_.plausible(3 * element.count, size_of(indices.type)));
-        const bool usual =
-            element.properties.size() == 1 && size_of(indices.count_type) == 1 && size_of(indices.type) == 4;
-        for (std::uint64_t f = 0; f < element.count;) {
-            if (usual) f += read_plain_triangles(element.count - f);
-            if (f == element.count) break;
-            for_record(element, f, list, [&](std::uint64_t vertex) {
-                check_index(element, f, vertex);
-                builder_.add_corner(static_cast<std::uint32_t>(vertex));
-            });
-            builder_.end_face();
-            ++f;
-        }
-    }
-
     /// Reads triangles of the type "list uchar int" as far as they are in the window, and says how many.
     std::uint64_t read_plain_triangles(std::uint64_t most) {
         constexpr std::size_t size = 13;
@@ -164,38 +172,12 @@ private:
         return static_cast<std::uint64_t>(record - first) / size;
     }
 
-    void read_strips(const PlyElement& element, std::size_t list) {
-        for (std::uint64_t s = 0; s < element.count; ++s) {
-            StripBuilder strip(builder_);
-            for_record(element, s, list, [&](std::uint64_t vertex) {
-                if (vertex == separator) {
-                    strip.restart();
-                    return;
-                }
-                check_index(element, s, vertex);
-                strip.add(static_cast<std::uint32_t>(vertex));
-            });
-        }
-    }
-
     void check_index(const PlyElement& element, std::uint64_t record, std::uint64_t vertex) {
         if (vertex < header_.points) return;
         input_.fail_at(input_.offset(),
                        fmt::format("expected a vertex index below {} in {} {}, found {}", header_.points,
                                    printable(element.name), record, static_cast<std::int64_t>(vertex)),
                        ErrorCode::index_out_of_range);
-    }
-
-    void skip_records(const PlyElement& element) {
-        if (!element.has_lists()) {
-            const std::size_t stride = element.least_size(false);
-            const bool overflows = element.count > std::numeric_limits<std::uint64_t>::max() / stride;
-            if (overflows || !input_.skip_far(element.count * stride)) fail_truncated(element, element.count);
-            return;
-        }
-        for (std::uint64_t i = 0; i < element.count; ++i) {
-            for_record(element, i, element.properties.size(), [](std::uint64_t) {});
-        }
     }
 
     // --- records ---
@@ -279,9 +261,11 @@ private:
 
 void read_ply_binary(Input& input, const PlyHeader& header, SoupBuilder& builder) {
     if (header.encoding == PlyEncoding::big_endian) {
-        BinaryBody<std::endian::big>(input, header, builder).read();
+        BinaryBody<std::endian::big> body(input, header, builder);
+        read_elements(header, body);
     } else {
-        BinaryBody<std::endian::little>(input, header, builder).read();
+        BinaryBody<std::endian::little> body(input, header, builder);
+        read_elements(header, body);
     }
 }
 

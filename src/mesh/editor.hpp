@@ -22,4 +22,14 @@ public:
     std::vector<Vec3>& points;
 };
 
+/// The outgoing half-edge that `Mesh::halfedge(v)` promises, starting from any one.
+inline HalfedgeId first_of_fan(const Mesh& mesh, HalfedgeId start) {
+    HalfedgeId at = start;
+    while (mesh.twin(at).valid()) {
+        at = Mesh::next(mesh.twin(at));
+        if (at == start) break;
+    }
+    return at;
+}
+
 }  // namespace delmesh

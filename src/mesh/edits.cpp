@@ -155,16 +155,6 @@ HalfedgeId close_face(MeshEditor& edit, HalfedgeId h) {
     return right.valid() ? right : Mesh::next(left);
 }
 
-/// The outgoing half-edge that `Mesh::halfedge(v)` promises, starting from any one.
-HalfedgeId first_of_fan(const Mesh& mesh, HalfedgeId start) {
-    HalfedgeId at = start;
-    while (mesh.twin(at).valid()) {
-        at = Mesh::next(mesh.twin(at));
-        if (at == start) break;
-    }
-    return at;
-}
-
 }  // namespace
 
 bool can_collapse(const Mesh& mesh, HalfedgeId h) {

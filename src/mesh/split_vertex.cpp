@@ -51,16 +51,6 @@ HalfedgeId add_face(MeshEditor& edit, VertexId a, VertexId b, VertexId c) {
     return first;
 }
 
-/// The outgoing half-edge that `Mesh::halfedge` promises, starting from any one.
-HalfedgeId first_of_fan(const Mesh& mesh, HalfedgeId start) {
-    HalfedgeId at = start;
-    while (mesh.twin(at).valid()) {
-        at = Mesh::next(mesh.twin(at));
-        if (at == start) break;
-    }
-    return at;
-}
-
 }  // namespace
 
 bool can_split_vertex(const Mesh& mesh, VertexId v, VertexId left, VertexId right) {
