@@ -12,13 +12,14 @@ EXPERIMENTS = {
     "figure2": "Algorithm 1 on a small example, split by split",
     "figure10": "the three modes side by side",
     "figure11": "vertices added by mode feature, against its threshold",
+    "figure12": "levels of detail, and their error beside plain quadric simplification",
     "orders": "orders of the flips: worst, fifo, lifo",
     "pictures": "the picture of the README",
 }
 
 # What the docs show; of built-in samples only.
 PUBLISHED = ["before-after.png", "figure2.png", "figure10-plate.png", "figure10-noisy-surface.png",
-             "figure11.png"]
+             "figure11.png", "figure12-noisy-surface-curve.png"]
 
 
 def publish():

@@ -1,4 +1,5 @@
-"""Plain quadric simplification (Garland, Heckbert 1997): makes the coarse inputs of Figure 11. Small, not fast."""
+"""Plain quadric simplification (Garland, Heckbert 1997): makes the coarse inputs of Figure 11, and what Figure
+12 is compared with. Small, not fast."""
 
 import heapq
 
