@@ -27,6 +27,11 @@ WriteOptions OutputOptions::write_options() const {
                         : fmt::format("{}: the name does not tell a format; end it in .ply, .obj, .off or .stl, or "
                                       "give --format",
                                       path));
+    if (!can_write(*options.format))
+        throw Error(ErrorCode::bad_argument,
+                    fmt::format("{}: {} is read but not written; end the name in .ply, .obj, .off or .stl, or give "
+                                "--format",
+                                path, name(*options.format)));
     options.precision = precision_name == "float" ? Precision::float32 : Precision::float64;
     options.ascii = ascii;
     return options;

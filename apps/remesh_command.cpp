@@ -198,7 +198,7 @@ void add_remesh_command(CLI::App& app, Action& action) {
     const auto arguments = std::make_shared<RemeshArguments>();
     command
         ->add_option("IN", arguments->input,
-                     "Mesh file: PLY, OBJ, OFF or STL, also packed as .gz or .zst; -: standard input")
+                     "Mesh file: PLY, OBJ, OFF, STL, glTF or 3MF, also packed as .gz or .zst; -: standard input")
         ->required();
     command->add_option("OUT", arguments->output.path, "File to write; its ending tells the format; -: standard output")
         ->required();

@@ -3,6 +3,7 @@
 #include "delmesh/io/read.hpp"
 
 #include "delmesh/base/error.hpp"
+#include "io/scene_files.hpp"
 #include "target.hpp"
 
 #define ZLIB_CONST
@@ -75,6 +76,31 @@ std::vector<std::string> ply_seeds() {
     return result;
 }
 
+std::vector<std::string> gltf_seeds() {
+    const std::string bytes = test::tetrahedron_buffer();
+    std::string sparse = test::tetrahedron_json("[{\"mesh\":0,\"matrix\":[0,1,0,0,1,0,0,0,0,0,1,0,5,6,7,1]}]", 2);
+    sparse.insert(sparse.find("\"bufferView\":0,"),
+                  "\"sparse\":{\"count\":1,\"indices\":{\"bufferView\":1,\"componentType\":5121},\"values\":{"
+                  "\"bufferView\":0}},");
+    const std::string nodes =
+        "[{\"children\":[1],\"scale\":[1,2,-3],\"rotation\":[0,0,0,1]},{\"mesh\":0,\"translation\":[1,2,3]}]";
+    return {test::glb(test::tetrahedron_json(nodes, 1, {}, "\"scene\":0,\"scenes\":[{\"nodes\":[0]}],"), bytes),
+            test::tetrahedron_json("[{\"mesh\":0}]", 3, "data:a/b;base64," + test::base64(bytes)),
+            test::glb(sparse, bytes)};
+}
+
+/// Model files; `in_package` puts them where they are read, since changes in packed data only show damage.
+std::vector<std::string> model_seeds() {
+    return {test::model_3mf(test::tetrahedron_3mf(1), "<item objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 0 0 0\"/>"),
+            test::model_3mf(test::tetrahedron_3mf(1) + "<object id=\"2\"><components><component objectid=\"1\" "
+                                                       "p:path=\"/3D/3dmodel.model\"/></components></object>",
+                            "<item objectid=\"2\"/>", "requiredextensions=\"p\"")};
+}
+
+std::string in_package(std::string input) {
+    return format_name == "3mf" && !input.starts_with("PK") ? test::package_3mf(input) : input;
+}
+
 std::vector<std::string> seeds_of(std::string_view format) {
     if (format == "ply") return ply_seeds();
     if (format == "obj") {
@@ -90,6 +116,8 @@ std::vector<std::string> seeds_of(std::string_view format) {
             std::string("OFF BINARY\n\0\0\0\3\0\0\0\1\0\0\0\0", 23) + std::string(36, '\x3f') +
                 std::string("\0\0\0\3\0\0\0\0\0\0\0\1\0\0\0\2\0\0\0\0", 20)};
     }
+    if (format == "gltf") return gltf_seeds();
+    if (format == "3mf") return model_seeds();
     return {
         "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
         "0\nendloop\nendfacet\nendsolid\n",
@@ -102,7 +130,7 @@ std::vector<std::string> seeds_of(std::string_view format) {
 std::vector<std::string> seeds() {
     if (!format_name.empty()) return seeds_of(format_name);
     std::vector<std::string> result;
-    for (const char* format : {"ply", "obj", "off", "stl"}) {
+    for (const char* format : {"ply", "obj", "off", "stl", "gltf"}) {
         for (const std::string& text : seeds_of(format)) {
             for (const std::string& packed : {text, gzip(text), zstd(text), gzip(text) + gzip(text)})
                 result.push_back(packed);
@@ -116,7 +144,8 @@ std::vector<std::string> seeds() {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace delmesh;
     try {
-        fuzz::check(parse_soup(std::as_bytes(std::span(data, size)), "input", {format_from_name(fuzz::format_name)}));
+        const std::string input = fuzz::in_package(std::string(reinterpret_cast<const char*>(data), size));
+        fuzz::check(parse_soup(std::as_bytes(std::span(input)), "input", {format_from_name(fuzz::format_name)}));
     } catch (const Error& error) {
         const std::string message = error.what();
         fuzz::require(message.starts_with("input: "), "messages name the file", message);

@@ -89,18 +89,16 @@ void refuse_foreign(const Input& input, std::string_view text) {
         std::string_view bytes;
         const char* what;
     };
-    constexpr std::array magics{Magic{"\x1f\x8b", "gzip data"},
-                                Magic{"\x28\xb5\x2f\xfd", "Zstandard data"},
-                                Magic{"PK\x03\x04", "a ZIP archive"},
-                                Magic{"glTF", "binary glTF"},
+    constexpr std::array magics{Magic{"\x1f\x8b", "gzip data"}, Magic{"\x28\xb5\x2f\xfd", "Zstandard data"},
                                 Magic{"BZh", "bzip2 data"},
                                 Magic{"\xfd"
                                       "7zXZ",
                                       "xz data"}};
     for (const Magic& magic : magics) {
         if (text.starts_with(magic.bytes)) {
-            throw Error(ErrorCode::unsupported_format,
-                        input.name() + ": expected PLY, OBJ, OFF or STL, found " + magic.what + ", which is not read");
+            throw Error(ErrorCode::unsupported_format, input.name() +
+                                                           ": expected PLY, OBJ, OFF, STL, glTF or 3MF, found " +
+                                                           magic.what + ", which is not read");
         }
     }
     if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) fail_utf16(input);
@@ -120,8 +118,11 @@ std::optional<Format> detect_format(Input& input) {
     const std::string_view text = input.view().substr(0, looked_at);
     refuse_foreign(input, text);
     if (text.size() > 3 && text.starts_with("ply") && is_blank(text[3])) return Format::ply;
+    if (text.starts_with("glTF")) return Format::gltf;
+    if (text.starts_with("PK\x03\x04")) return Format::three_mf;
     if (has_size_of_stl(input, text)) return Format::stl;
     const std::string_view word = first_word(text);
+    if (word.starts_with('{')) return Format::gltf;
     if (parse_off_keyword(word)) return Format::off;
     if (is_solid(word)) return Format::stl;
     if (is_obj_keyword(word)) return Format::obj;

@@ -13,8 +13,10 @@ struct NamedFormat {
     std::string_view name;
 };
 
-constexpr std::array formats{NamedFormat{Format::ply, "ply"}, NamedFormat{Format::obj, "obj"},
-                             NamedFormat{Format::off, "off"}, NamedFormat{Format::stl, "stl"}};
+constexpr std::array formats{NamedFormat{Format::ply, "ply"},     NamedFormat{Format::obj, "obj"},
+                             NamedFormat{Format::off, "off"},     NamedFormat{Format::stl, "stl"},
+                             NamedFormat{Format::gltf, "gltf"},   NamedFormat{Format::gltf, "glb"},
+                             NamedFormat{Format::three_mf, "3mf"}};
 
 constexpr char lower(char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -25,6 +27,10 @@ constexpr char lower(char c) {
 std::string_view name(Format format) {
     const auto* found = std::ranges::find(formats, format, &NamedFormat::format);
     return found == formats.end() ? std::string_view("unknown") : found->name;
+}
+
+bool can_write(Format format) {
+    return format != Format::gltf && format != Format::three_mf;
 }
 
 std::optional<Format> format_from_name(std::string_view text) {

@@ -18,14 +18,16 @@ void skip_byte_order_mark(Input& input) {
 
 }  // namespace
 
-PolygonSoup read_input(Input& input, std::optional<Format> hint, const ReadOptions& options) {
+PolygonSoup read_input(Input& input, std::optional<Format> hint, const ReadOptions& options,
+                       const std::filesystem::path& folder) {
     if (input.ensure(1) == 0) input.fail("expected a mesh, found an empty file");
     skip_byte_order_mark(input);
     const std::optional<Format> detected = detect_format(input);
     const std::optional<Format> format = options.format ? options.format : detected ? detected : hint;
     if (!format) {
-        throw Error(ErrorCode::unsupported_format,
-                    input.name() + ": expected PLY, OBJ, OFF or STL, found none of them by content or extension");
+        throw Error(
+            ErrorCode::unsupported_format,
+            input.name() + ": expected PLY, OBJ, OFF, STL, glTF or 3MF, found none of them by content or extension");
     }
     switch (*format) {
         case Format::ply:
@@ -36,6 +38,10 @@ PolygonSoup read_input(Input& input, std::optional<Format> hint, const ReadOptio
             return read_off(input);
         case Format::stl:
             return read_stl(input);
+        case Format::gltf:
+            return read_gltf(input, folder);
+        case Format::three_mf:
+            return read_3mf(input);
     }
     throw Error(ErrorCode::unsupported_format, input.name() + ": this format is not read");
 }
@@ -48,10 +54,11 @@ std::optional<Format> hint_of(const std::filesystem::path& path) {
     return format_from_path(last == ".gz" || last == ".zst" ? path.stem() : path);
 }
 
-PolygonSoup read_source(ByteSource& source, const std::string& name, const ReadOptions& options) {
+PolygonSoup read_source(ByteSource& source, const std::string& name, const ReadOptions& options,
+                        const std::filesystem::path& folder) {
     UnpackedSource unpacked(source, name);
     Input input(unpacked, name);
-    return read_input(input, hint_of(name), options);
+    return read_input(input, hint_of(name), options, folder);
 }
 
 }  // namespace
@@ -60,12 +67,13 @@ PolygonSoup read_source(ByteSource& source, const std::string& name, const ReadO
 
 PolygonSoup read_soup(const std::filesystem::path& path, const ReadOptions& options) {
     io::FileSource source(path);
-    return io::read_source(source, path.string(), options);
+    const std::filesystem::path folder = path.parent_path();
+    return io::read_source(source, path.string(), options, folder.empty() ? "." : folder);
 }
 
 PolygonSoup parse_soup(std::span<const std::byte> bytes, std::string_view name, const ReadOptions& options) {
     io::MemorySource source(bytes);
-    return io::read_source(source, std::string(name), options);
+    return io::read_source(source, std::string(name), options, {});
 }
 
 }  // namespace delmesh

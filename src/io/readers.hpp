@@ -5,12 +5,15 @@
 #include "delmesh/io/read.hpp"
 #include "io/input.hpp"
 
+#include <filesystem>
 #include <optional>
 
 namespace delmesh::io {
 
 /// Reads a soup from an input whose content, or else `hint`, or before all `options`, says what it is.
-[[nodiscard]] PolygonSoup read_input(Input& input, std::optional<Format> hint, const ReadOptions& options);
+/// `folder` is where files lie that the input names; empty: nowhere.
+[[nodiscard]] PolygonSoup read_input(Input& input, std::optional<Format> hint, const ReadOptions& options,
+                                     const std::filesystem::path& folder = {});
 
 /// What the first bytes look like; throws where they are a known format that is not read here, or not 8-bit text.
 [[nodiscard]] std::optional<Format> detect_format(Input& input);
@@ -21,5 +24,8 @@ namespace delmesh::io {
 [[nodiscard]] PolygonSoup read_obj(Input& input);
 [[nodiscard]] PolygonSoup read_off(Input& input);
 [[nodiscard]] PolygonSoup read_stl(Input& input);
+/// Buffers in files of their own are looked for in `folder` and below; nowhere if it is empty.
+[[nodiscard]] PolygonSoup read_gltf(Input& input, const std::filesystem::path& folder);
+[[nodiscard]] PolygonSoup read_3mf(Input& input);
 
 }  // namespace delmesh::io

@@ -35,6 +35,14 @@ bool is_zstd_skippable(std::string_view start) {
 
 }  // namespace
 
+bool grows_absurdly(std::uint64_t unpacked, std::uint64_t packed) {
+    return unpacked > always_allowed && unpacked / most_growth > packed;
+}
+
+std::string absurd_growth(std::string_view what) {
+    return fmt::format("expected a mesh, found {} that unpack to more than {} times their size", what, most_growth);
+}
+
 /// The packed bytes, a chunk at a time, and the words of errors; what unpacks them derives from it.
 class UnpackedSource::Decoder {
 public:
@@ -52,10 +60,7 @@ public:
     std::size_t read(char* to, std::size_t capacity) {
         const std::size_t n = decode(to, std::min<std::size_t>(capacity, std::numeric_limits<unsigned>::max()));
         given_ += n;
-        if (given_ > always_allowed && given_ / most_growth > position()) {
-            fail(fmt::format("expected a mesh, found {} that unpack to more than {} times their size", format_,
-                             most_growth));
-        }
+        if (grows_absurdly(given_, position())) fail(absurd_growth(format_));
         return n;
     }
 

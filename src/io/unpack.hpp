@@ -3,11 +3,17 @@
 
 #include "io/byte_source.hpp"
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
 
 namespace delmesh::io {
+
+/// True where `unpacked` bytes are more than `packed` ones can honestly hold.
+[[nodiscard]] bool grows_absurdly(std::uint64_t unpacked, std::uint64_t packed);
+/// What to say then, of `what` (in the plural).
+[[nodiscard]] std::string absurd_growth(std::string_view what);
 
 /// Gives the bytes of another source, unpacked if they are gzip (RFC 1952, any number of members) or Zstandard
 /// (RFC 8878, any number of frames), and as they are if not. Throws `Error` (file_format) that names the byte of the

@@ -16,7 +16,7 @@ namespace {
 
 Format format_of(const std::filesystem::path& path, const WriteOptions& options) {
     const std::optional<Format> format = options.format ? options.format : format_from_path(path);
-    if (format) return *format;
+    if (format && can_write(*format)) return *format;
     throw Error(ErrorCode::unsupported_format,
                 printable(path.string()) + ": expected an extension .ply, .obj, .off or .stl, or a format to write");
 }
@@ -74,6 +74,9 @@ void write(const std::filesystem::path& path, const Surface& surface, const Writ
         case Format::stl:
             write_stl(file, surface, options.ascii);
             break;
+        case Format::gltf:
+        case Format::three_mf:
+            break;  // refused by format_of
     }
     file.commit();
 }

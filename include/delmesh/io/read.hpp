@@ -1,5 +1,6 @@
 #pragma once
-// Files to soups. PLY (ascii, both endians, triangle strips), OBJ, OFF (all usual variants), STL (ascii, binary).
+// Files to soups. PLY (ascii, both endians, triangle strips), OBJ, OFF (all usual variants), STL (ascii, binary), glTF
+// 2.0 (.gltf, .glb), 3MF.
 
 #include "delmesh/base/context.hpp"
 #include "delmesh/io/format.hpp"
@@ -17,7 +18,7 @@ struct ReadOptions {
     std::optional<Format> format;
 };
 
-/// Reads a mesh file; gzip and Zstandard data are unpacked on the way, and lines and bytes in messages are then those
+/// Reads a mesh file; of a scene (glTF, 3MF) all that is shown, where it is shown. gzip and Zstandard data are unpacked on the way, and lines and bytes in messages are then those
 /// of the unpacked data. STL corners are welded where their coordinates are equal (-0 equals +0), in order of first
 /// appearance. Numbers are read as doubles at full precision, but for an ascii PLY file whose header says `float`: such
 /// a number is the nearest float, as in any program that keeps the declared type. Infinities and NaNs are kept; a

@@ -1,0 +1,73 @@
+#pragma once
+// The parts of a glTF 2.0 file: its JSON, as far as meshes need it, and the bytes of its buffers.
+
+#include "io/gltf_json.hpp"
+#include "io/input.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace delmesh::io {
+
+/// Everything throws `Error` in one line that names the file: file_format where the data are not what they should be,
+/// unsupported_format where an extension is needed that is not read.
+class GltfFile {
+public:
+    /// Reads .glb and .gltf. Buffers in files of their own are looked for in `folder` and below; nowhere if it is
+    /// empty.
+    GltfFile(Input& input, std::filesystem::path folder);
+    GltfFile(const GltfFile&) = delete;
+    GltfFile& operator=(const GltfFile&) = delete;
+
+    [[nodiscard]] const std::string& name() const { return name_; }
+    [[nodiscard]] std::size_t size() const { return bytes_.size(); }
+    [[nodiscard]] const Json& root() const { return root_; }
+    /// The bytes of a buffer; they stay where they are as long as this does.
+    [[nodiscard]] std::string_view buffer(std::uint64_t number);
+
+    [[noreturn]] void fail(const std::string& what, ErrorCode code = ErrorCode::file_format) const;
+
+    /// A member of a JSON object; null if there is none.
+    [[nodiscard]] static const Json* find(const Json& object, const char* key);
+    /// The list of that name; an empty one where there is none.
+    [[nodiscard]] const Json& list(const Json& object, const char* key) const;
+    /// Element `number` of the list `key` of the whole file.
+    [[nodiscard]] const Json& element(const char* key, std::uint64_t number) const;
+    [[nodiscard]] std::uint64_t whole_number(const Json& value, const char* what) const;
+    [[nodiscard]] std::optional<std::uint64_t> find_number(const Json& object, const char* key) const;
+    /// The same where it must be there.
+    [[nodiscard]] std::uint64_t number(const Json& object, const char* key) const;
+    /// `count` numbers; empty where there is no such member.
+    [[nodiscard]] std::vector<double> reals(const Json& object, const char* key, std::size_t count) const;
+    /// A view into the JSON; empty where there is no such member.
+    [[nodiscard]] std::string_view text(const Json& object, const char* key) const;
+
+private:
+    struct Buffer {
+        bool known = false;
+        std::string owned;
+        std::string_view bytes;
+    };
+
+    /// The JSON and, in a .glb file, the binary chunk.
+    [[nodiscard]] std::string_view open_container();
+    void parse(std::string_view json);
+    void check_version() const;
+    void refuse_extensions() const;
+    [[nodiscard]] std::string decode_base64(std::string_view text) const;
+    [[nodiscard]] std::string read_beside(std::string_view uri) const;
+
+    std::string name_;
+    std::filesystem::path folder_;
+    std::string bytes_;
+    std::uint64_t json_begin_ = 0;
+    std::optional<std::string_view> chunk_;
+    Json root_;
+    std::vector<Buffer> buffers_;
+};
+
+}  // namespace delmesh::io
