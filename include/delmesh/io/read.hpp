@@ -18,14 +18,15 @@ struct ReadOptions {
     std::optional<Format> format;
 };
 
-/// Reads a mesh file; of a scene (glTF, 3MF) all that is shown, where it is shown. gzip and Zstandard data are unpacked on the way, and lines and bytes in messages are then those
-/// of the unpacked data. STL corners are welded where their coordinates are equal (-0 equals +0), in order of first
-/// appearance. Numbers are read as doubles at full precision, but for an ascii PLY file whose header says `float`: such
-/// a number is the nearest float, as in any program that keeps the declared type. Infinities and NaNs are kept; a
-/// decimal number that overflows is an error. All vertex indices are checked. Throws `Error` (file_not_readable,
-/// file_format, index_out_of_range, too_large, unsupported_format) in one line that names file, line or byte, what was
-/// found and what was expected. Cost: O(bytes); memory in proportion to what the file really holds, whatever its counts
-/// say; packed data that grow absurdly (more than 250-fold, beyond 64 MiB) are an error. See docs/formats.md.
+/// Reads a mesh file; of a scene (glTF, 3MF) all that is shown, where it is shown. gzip and Zstandard data are unpacked
+/// on the way, and lines and bytes in messages are then those of the unpacked data. STL corners, and those of one glTF
+/// mesh, are welded where their coordinates are equal (-0 equals +0), in order of first appearance. Numbers are read as
+/// doubles at full precision, but for an ascii PLY file whose header says `float`: such a number is the nearest float,
+/// as in any program that keeps the declared type. Infinities and NaNs are kept; a decimal number that overflows is an
+/// error. All vertex indices are checked. Throws `Error` (file_not_readable, file_format, index_out_of_range,
+/// too_large, unsupported_format) in one line that names file, line or byte, what was found and what was expected.
+/// Cost: O(bytes); memory in proportion to what the file really holds, whatever its counts say; packed data that grow
+/// absurdly (more than 250-fold, beyond 64 MiB) are an error. See docs/formats.md.
 [[nodiscard]] PolygonSoup read_soup(const std::filesystem::path& path, const ReadOptions& options = {});
 
 /// The same for bytes in memory; `name` stands for the file in messages.
