@@ -81,7 +81,7 @@ public:
             if (mesh_.is_boundary(h) && can_remove_face(mesh_, Mesh::face(h))) {
                 marked_.drop(Mesh::face(h));
                 dropped = true;
-            } else if (is_flippable(mesh_, h)) {
+            } else if (marked_.is_flippable(h)) {
                 flip(h);
             } else {
                 result.left = mesh_.edge(h);

@@ -99,7 +99,7 @@ private:
     void treat(HalfedgeId h) {
         if (!marked_.is_planar(h)) {
             splitter_.split_at_shell(h);
-        } else if (!is_flippable(mesh_, h)) {
+        } else if (!marked_.is_flippable(h)) {
             stuck_.push_back(h);
         } else if (const int folds = count_folds(h); folds > 0 && options_.no_foldover) {
             stuck_.push_back(h);
@@ -155,7 +155,7 @@ private:
     }
 
     [[nodiscard]] bool may_flip(HalfedgeId h) const {
-        return marked_.is_planar(h) && is_flippable(mesh_, h) && !(options_.no_foldover && count_folds(h) > 0);
+        return marked_.is_planar(h) && marked_.is_flippable(h) && !(options_.no_foldover && count_folds(h) > 0);
     }
 
     /// Boundary edges that are not split as they come up.
@@ -179,7 +179,7 @@ private:
     void count_exposed(const std::vector<HalfedgeId>& stuck) {
         for (const HalfedgeId h : stuck) {
             const HalfedgeId t = mesh_.twin(h);
-            if (!t.valid() || is_flippable(mesh_, h)) continue;
+            if (!t.valid() || marked_.is_flippable(h)) continue;
             const VertexId u = mesh_.apex(h);
             const VertexId v = mesh_.apex(t);
             const std::size_t more =

@@ -10,8 +10,18 @@ MarkedMesh::MarkedMesh(Mesh& mesh, std::vector<Mark> marks, std::vector<FaceId> 
       facets_(std::move(facets)),
       input_vertices_(mesh.vertex_count()) {}
 
+bool MarkedMesh::is_flippable(HalfedgeId h) {
+    const HalfedgeId t = mesh_.twin(h);
+    if (!t.valid()) return false;
+    const VertexId u = mesh_.apex(h);
+    const VertexId v = mesh_.apex(t);
+    return mesh_.point(u) != mesh_.point(v) && !hubs_.are_joined(mesh_, u, v);
+}
+
 HalfedgeId MarkedMesh::flip_planar(HalfedgeId h) {
     const HalfedgeId t = mesh_.twin(h);
+    hubs_.part(mesh_.origin(h), mesh_.target(h));
+    hubs_.join(mesh_.apex(h), mesh_.apex(t));
     const HalfedgeId h_prev = Mesh::prev(h);
     const HalfedgeId t_prev = Mesh::prev(t);
     marks_[h.index()] = std::exchange(marks_[t_prev.index()], Mark::planar);
@@ -21,7 +31,12 @@ HalfedgeId MarkedMesh::flip_planar(HalfedgeId h) {
 
 VertexId MarkedMesh::split(HalfedgeId h, const SplitPoint& where, const Vec3& point) {
     const HalfedgeId t = mesh_.twin(h);
+    const VertexId p = mesh_.origin(h);
+    const VertexId q = mesh_.target(h);
     const VertexId s = split_edge(mesh_, h, point);
+    hubs_.part(p, q);
+    for (const VertexId v : {p, q, mesh_.apex(h)}) hubs_.join(v, s);
+    if (t.valid()) hubs_.join(mesh_.apex(t), s);
     splits_.push_back(where);
     const Mark mark = marks_[h.index()];
     const Mark beyond_next = std::exchange(marks_[Mesh::next(h).index()], Mark::planar);
@@ -50,6 +65,7 @@ void MarkedMesh::mark_physical(HalfedgeId h) {
 }
 
 void MarkedMesh::merge(HalfedgeId h) {
+    hubs_.clear();
     // In each face that dies, two sides become one edge: a crease if either was.
     for (const HalfedgeId side : {h, mesh_.twin(h)}) {
         if (!side.valid()) continue;
@@ -64,12 +80,14 @@ void MarkedMesh::merge(HalfedgeId h) {
 }
 
 void MarkedMesh::drop(FaceId f) {
+    hubs_.clear();
     for (HalfedgeId h : {Mesh::halfedge(f), Mesh::next(Mesh::halfedge(f)), Mesh::prev(Mesh::halfedge(f))})
         mark_physical(h);
     remove_face(mesh_, f);
 }
 
 void MarkedMesh::compact_all() {
+    hubs_.clear();
     CompactMap map = compact(mesh_);
     std::size_t faces = 0;
     for (std::size_t f = 0; f < map.face.size(); ++f) {

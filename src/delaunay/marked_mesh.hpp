@@ -3,6 +3,7 @@
 // in step, so that planarity is a matter of bookkeeping and never measured again: a split point rounded to double lies
 // up to an ulp off its edge.
 
+#include "delaunay/hub_index.hpp"
 #include "delmesh/delaunay/provenance.hpp"
 #include "delmesh/mesh/edits.hpp"
 #include "delmesh/mesh/mesh.hpp"
@@ -31,6 +32,8 @@ public:
     /// Where split vertex v lies. Requires !is_input(v).
     [[nodiscard]] const SplitPoint& split_point(VertexId v) const { return splits_[v.index() - input_vertices_]; }
 
+    /// True if the edge of h may be flipped (see can_flip) and the new edge has a length. Cost: O(1), in effect.
+    [[nodiscard]] bool is_flippable(HalfedgeId h);
     /// Flips a planar edge; moves half-edges as `flip` in edits.hpp does. Returns the new edge.
     HalfedgeId flip_planar(HalfedgeId h);
     /// Splits an edge at `where`, which is `point` in space; moves half-edges as `split_edge` does.
@@ -59,6 +62,7 @@ private:
     std::vector<FaceId> facets_;
     std::vector<SplitPoint> splits_;
     std::size_t input_vertices_;
+    HubIndex hubs_;
     /// Who went, and into whom, since the last `compact_all`.
     std::vector<std::array<VertexId, 2>> merged_;
 };

@@ -20,11 +20,6 @@ namespace delmesh {
     return sign == Sign::negative;
 }
 
-/// True if the edge may be flipped (see can_flip) and the new edge has a length.
-[[nodiscard]] inline bool is_flippable(const Mesh& mesh, HalfedgeId h) {
-    return can_flip(mesh, h) && mesh.point(mesh.apex(h)) != mesh.point(mesh.apex(mesh.twin(h)));
-}
-
 /// All edges that are not Delaunay, in the order of their ids. Parallel.
 [[nodiscard]] std::vector<HalfedgeId> find_non_delaunay(const Mesh& mesh, const Context* context);
 

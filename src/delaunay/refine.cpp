@@ -43,7 +43,7 @@ private:
             const HalfedgeId h = suspects_.back();
             suspects_.pop_back();
             if (!is_non_delaunay(mesh_, h)) continue;
-            if (marked_.is_planar(h) && is_flippable(mesh_, h)) {
+            if (marked_.is_planar(h) && marked_.is_flippable(h)) {
                 flip_edge(h);
             } else {
                 splits_.push_back(h);
@@ -85,7 +85,7 @@ private:
         if (splitter_.stopped() || !is_non_delaunay(mesh_, h)) return;
         if (!marked_.is_planar(h)) {
             splitter_.split_at_shell(h);
-        } else if (is_flippable(mesh_, h)) {
+        } else if (marked_.is_flippable(h)) {
             flip_edge(h);
         } else {
             splitter_.halve(h);

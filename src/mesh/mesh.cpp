@@ -1,10 +1,12 @@
 #include "delmesh/mesh/mesh.hpp"
 
 #include "delmesh/base/error.hpp"
+#include "mesh/fan_search.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <string>
 
 namespace delmesh {
@@ -182,55 +184,8 @@ std::size_t Mesh::count_edges() const {
     return sides / 2;
 }
 
-namespace {
-
-/// Walks a fan one half-edge at a time, looking for a neighbour.
-class FanSearch {
-public:
-    FanSearch(const Mesh& mesh, VertexId from, VertexId wanted)
-        : mesh_(mesh),
-          start_(mesh.halfedge(from)),
-          at_(start_),
-          wanted_(wanted) {}
-
-    /// One step; true when the search is over.
-    bool step() {
-        if (!at_.valid()) return true;
-        if (mesh_.target(at_) == wanted_) {
-            outgoing_ = at_;
-            found_ = true;
-            return true;
-        }
-        // The last edge of an open fan has no outgoing half-edge.
-        if (mesh_.apex(at_) == wanted_ && mesh_.is_boundary(Mesh::prev(at_))) {
-            found_ = true;
-            return true;
-        }
-        at_ = mesh_.next_around(at_);
-        if (at_ == start_) at_ = HalfedgeId();
-        return false;
-    }
-
-    [[nodiscard]] bool found() const { return found_; }
-    [[nodiscard]] HalfedgeId outgoing() const { return outgoing_; }
-
-private:
-    const Mesh& mesh_;
-    HalfedgeId start_;
-    HalfedgeId at_;
-    HalfedgeId outgoing_;
-    VertexId wanted_;
-    bool found_ = false;
-};
-
-}  // namespace
-
 bool Mesh::are_joined(VertexId a, VertexId b) const {
-    FanSearch from_a(*this, a, b);
-    FanSearch from_b(*this, b, a);
-    while (!from_a.step())
-        if (from_b.step()) return from_b.found();
-    return from_a.found();
+    return *are_joined_within(*this, a, b, std::numeric_limits<std::size_t>::max());
 }
 
 HalfedgeId Mesh::find_halfedge(VertexId a, VertexId b) const {
