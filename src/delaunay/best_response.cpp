@@ -13,6 +13,8 @@ constexpr double margin_interior = 4e-10;
 constexpr double margin_boundary = 2e-10;
 /// Points this near to the line of a side do not see it.
 constexpr double flat = 1e-14;
+/// Points of an edge keep this distance, as a part of the edge.
+constexpr double least_room = 1e-7;
 constexpr double centre_share = 0.4;
 constexpr double align_share = 0.5;
 constexpr int max_newton = 60;
@@ -264,6 +266,7 @@ std::span<const double> BestResponse::solve(std::uint32_t e, std::size_t first, 
     chosen_.clear();
     low_ = model_.part_start(e, first);
     high_ = model_.parts(e)[last].end;
+    room_ = std::min(least_room, 0.01 * (high_ - low_));
     model_.count_work(response_work);
     look(e);
     const double up = reach_up(low_);
@@ -272,12 +275,13 @@ std::span<const double> BestResponse::solve(std::uint32_t e, std::size_t first, 
     aligned_.clear();
     if (random_.chance(align_share)) align(e);
     const double down = reach_down(high_);
-    if (!(down < up && place_one(down, up))) place_many();
+    if (!place_one(std::max(down, low_ + room_), std::min(up, high_ - room_))) place_many();
     return chosen_;
 }
 
 /// A single point between low and high where it blocks next to nothing.
 bool BestResponse::place_one(double low, double high) {
+    if (!(low < high)) return false;
     constexpr int too_much = 15;
     int least = too_much - 1;
     std::size_t count = 0;
@@ -349,7 +353,7 @@ void BestResponse::add_candidates() {
 void BestResponse::weigh_candidates() {
     std::sort(candidates_.begin(), candidates_.end(),
               [](const Candidate& a, const Candidate& b) { return a.at < b.at; });
-    const auto out = [&](const Candidate& c) { return c.at <= low_ || c.at >= high_; };
+    const auto out = [&](const Candidate& c) { return c.at < low_ + room_ || c.at > high_ - room_; };
     candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(), out), candidates_.end());
     const auto same = [](const Candidate& a, const Candidate& b) { return a.at == b.at; };
     candidates_.erase(std::unique(candidates_.begin(), candidates_.end(), same), candidates_.end());
@@ -373,7 +377,7 @@ bool BestResponse::cheapest_chain() {
             Candidate& before = candidates_[i];
             if (before.cost + own >= here.cost) continue;
             if (before.reach < 0) before.reach = reach_up(before.at);
-            if (before.reach < here.at) continue;
+            if (before.reach < here.at || here.at < before.at + room_) continue;
             here.cost = before.cost + own;
             here.before = static_cast<int>(i);
         }
@@ -399,6 +403,7 @@ void BestResponse::plain_chain() {
 double BestResponse::halve(std::uint32_t e, std::size_t first) {
     low_ = model_.part_start(e, first);
     high_ = model_.parts(e)[first].end;
+    room_ = std::min(least_room, 0.01 * (high_ - low_));
     chosen_.clear();
     look(e);
     const double up = reach_up(low_);

@@ -78,6 +78,7 @@ private:
     Random& random_;
     double low_ = 0;  ///< the stretch that is being solved
     double high_ = 1;
+    double room_ = 0;
     std::array<View, 2> views_;
     std::vector<Cell> blocked_;  ///< one for each part of another edge, with its weight
     std::vector<Event> events_;

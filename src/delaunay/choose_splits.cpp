@@ -1,70 +1,105 @@
 #include "delaunay/choose_splits.hpp"
 
-#include "delaunay/split_model.hpp"
-#include "delaunay/split_regions.hpp"
-#include "delaunay/split_search.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 namespace delmesh {
 namespace {
 
-/// A unit of work takes about 10 ns.
-constexpr double work_per_edge = 25'000;
-constexpr double least_work = 150e6;
+/// A unit of work takes about 7 ns.
+constexpr double work_per_edge = 30'000;
+constexpr double least_work = 200e6;
 constexpr int default_effort = 3;
+/// The share of the work in which an edge must be closed; else the rest is closed by borrowing.
+constexpr double patience = 0.25;
 
-std::vector<PlacedPoint> place(SplitModel& model, std::span<const SplitPoint> splits) {
-    const Mesh& mesh = model.layout().marked().mesh();
+}  // namespace
+
+SplitChooser::SplitChooser(const MarkedMesh& marked, std::span<const EdgeId> bad, const SplitSearchOptions& options)
+    : model_(marked),
+      search_(model_, options.seed),
+      options_(options) {
+    bad_.reserve(bad.size());
+    for (const EdgeId e : bad) {
+        bad_.push_back(model_.edge_of(Mesh::halfedge(e)));
+        model_.prepare(bad_.back());
+    }
+}
+
+std::uint32_t SplitChooser::edge_between(VertexId a, VertexId b) {
+    const MarkedMesh& marked = model_.layout().marked();
+    HalfedgeId h = marked.mesh().find_halfedge(a, b);
+    if (!h.valid()) h = marked.mesh().find_halfedge(b, a);
+    return h.valid() && !marked.is_planar(h) ? model_.edge_of(h) : SplitModel::none;
+}
+
+/// Sorted. Leaves out points within facets.
+std::vector<PlacedPoint> SplitChooser::place(std::span<const SplitPoint> splits) {
     std::vector<PlacedPoint> points;
     points.reserve(splits.size());
-    HalfedgeId h;
+    std::uint32_t e = SplitModel::none;
     for (std::size_t i = 0; i < splits.size(); ++i) {
-        if (i == 0 || splits[i].a != splits[i - 1].a || splits[i].b != splits[i - 1].b) {
-            h = mesh.find_halfedge(splits[i].a, splits[i].b);
-            if (!h.valid()) h = mesh.find_halfedge(splits[i].b, splits[i].a);
-        }
-        if (h.valid() && !model.layout().marked().is_planar(h)) points.push_back({model.edge_of(h), splits[i].t});
+        if (i == 0 || splits[i].a != splits[i - 1].a || splits[i].b != splits[i - 1].b)
+            e = edge_between(splits[i].a, splits[i].b);
+        if (e != SplitModel::none) points.push_back({e, splits[i].t});
     }
     std::sort(points.begin(), points.end());
     return points;
 }
 
-std::vector<SplitPoint> splits_of(const SplitModel& model) {
-    const Mesh& mesh = model.layout().marked().mesh();
+void SplitChooser::set_baseline(std::span<const SplitPoint> splits) {
+    baseline_ = place(splits);
+    search_.set_other(baseline_);
+}
+
+void SplitChooser::search(const Context* context) {
+    search_.construct(bad_);
+    if (options_.effort > 0) {
+        const double full = std::ldexp(std::max(work_per_edge * static_cast<double>(bad_.size()), least_work),
+                                       options_.effort - default_effort);
+        wait_for_open_edges(full, context);
+        if (!is_cancelled(context)) search_.close_open();
+        search_.improve(static_cast<std::uint64_t>(full), context);
+    } else {
+        search_.close_open();
+    }
+    if (is_cancelled(context) || baseline_.empty()) return;
+    delmesh::take_better_regions(model_, search_.open(), placed_points(model_), baseline_);
+}
+
+/// Searches for as long as edges get closed.
+void SplitChooser::wait_for_open_edges(double work, const Context* context) {
+    for (double spent = 0; spent < 1 && !is_cancelled(context); spent += patience) {
+        const std::size_t before = search_.open().size();
+        if (before == 0) return;
+        search_.improve(static_cast<std::uint64_t>(patience * work), context);
+        if (search_.open().size() == before) return;
+    }
+}
+
+std::vector<SplitPoint> SplitChooser::splits() const {
+    const Mesh& mesh = model_.layout().marked().mesh();
     std::vector<SplitPoint> splits;
-    splits.reserve(model.point_count());
-    for (std::uint32_t e = 0; e < model.edge_count(); ++e) {
-        const HalfedgeId h = model.layout().edge(e).halfedge;
-        const VertexId a = std::min(mesh.origin(h), mesh.target(h));
-        const VertexId b = std::max(mesh.origin(h), mesh.target(h));
-        for (std::uint32_t i = 0; i < model.point_count(e); ++i) splits.push_back({a, b, model.parts(e)[i].end});
+    splits.reserve(model_.point_count());
+    for (const PlacedPoint& point : placed_points(model_)) {
+        const HalfedgeId h = model_.layout().edge(point.edge).halfedge;
+        splits.push_back(
+            {std::min(mesh.origin(h), mesh.target(h)), std::max(mesh.origin(h), mesh.target(h)), point.at});
     }
     return splits;
 }
 
-}  // namespace
+bool SplitChooser::mend(std::span<const std::array<VertexId, 2>> edges) {
+    std::vector<std::uint32_t> ids;
+    for (const auto& [a, b] : edges) {
+        const std::uint32_t e = edge_between(a, b);
+        if (e != SplitModel::none) ids.push_back(e);
+    }
+    return search_.mend(ids);
+}
 
-std::vector<SplitPoint> choose_splits(const MarkedMesh& marked, std::span<const EdgeId> bad,
-                                      std::span<const SplitPoint> baseline, const SplitSearchOptions& options,
-                                      const Context* context) {
-    SplitModel model(marked);
-    std::vector<std::uint32_t> open;
-    open.reserve(bad.size());
-    for (const EdgeId e : bad) {
-        open.push_back(model.edge_of(Mesh::halfedge(e)));
-        model.prepare(open.back());
-    }
-    SplitSearch search(model, options.seed);
-    search.construct(open);
-    if (options.effort > 0) {
-        const double full = std::max(work_per_edge * static_cast<double>(bad.size()), least_work);
-        search.improve(static_cast<std::uint64_t>(std::ldexp(full, options.effort - default_effort)), context);
-    }
-    if (is_cancelled(context)) return {};
-    if (!baseline.empty()) take_better_regions(model, search.open(), place(model, baseline));
-    return splits_of(model);
+bool SplitChooser::take_better_regions(std::span<const SplitPoint> truth) {
+    return !baseline_.empty() && delmesh::take_better_regions(model_, {}, place(truth), baseline_) > 0;
 }
 
 }  // namespace delmesh

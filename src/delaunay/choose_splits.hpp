@@ -2,9 +2,13 @@
 // Where to split which edges so that few points are needed: the search of docs/fewest.md.
 
 #include "delaunay/marked_mesh.hpp"
+#include "delaunay/split_model.hpp"
+#include "delaunay/split_regions.hpp"
+#include "delaunay/split_search.hpp"
 #include "delmesh/base/context.hpp"
 #include "delmesh/delaunay/provenance.hpp"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -16,13 +20,36 @@ struct SplitSearchOptions {
     std::uint64_t seed = 1;
 };
 
-/// Points on physical edges after which, in exact arithmetic, all of these would be Delaunay; ordered by edge and
-/// parameter. `marked`: planar edges are Delaunay; `bad`: the physical edges that are not, in order. `baseline`:
-/// another solution, that is taken region by region where it has fewer points or the search has found none; may be
-/// empty, and then regions without a solution keep edges that are not Delaunay. Deterministic. Memory: linear in the
-/// faces around the points. Returns nothing when cancelled.
-[[nodiscard]] std::vector<SplitPoint> choose_splits(const MarkedMesh& marked, std::span<const EdgeId> bad,
-                                                    std::span<const SplitPoint> baseline,
-                                                    const SplitSearchOptions& options, const Context* context);
+/// Chooses points on physical edges after which, in exact arithmetic, all edges would be Delaunay. Deterministic.
+/// Memory: linear in the faces around the points. The mesh must not change meanwhile.
+class SplitChooser {
+public:
+    /// `marked`: planar edges are Delaunay; `bad`: the physical edges that are not, in order.
+    SplitChooser(const MarkedMesh& marked, std::span<const EdgeId> bad, const SplitSearchOptions& options);
+
+    /// Another solution, to borrow from where the search finds none, and to compare with.
+    void set_baseline(std::span<const SplitPoint> splits);
+    /// Without a baseline some edges may stay as they are, not Delaunay.
+    void search(const Context* context);
+    /// The points, ordered by edge and parameter.
+    [[nodiscard]] std::vector<SplitPoint> splits() const;
+    /// These input edges, by their ends, have turned out not to be Delaunay: from now on they keep a distance from
+    /// ties. False if that changes nothing.
+    bool mend(std::span<const std::array<VertexId, 2>> edges);
+    /// Takes the baseline in all regions where it has fewer points than what the points have come to in truth. False
+    /// if there is none.
+    bool take_better_regions(std::span<const SplitPoint> truth);
+
+private:
+    void wait_for_open_edges(double work, const Context* context);
+    [[nodiscard]] std::uint32_t edge_between(VertexId a, VertexId b);
+    [[nodiscard]] std::vector<PlacedPoint> place(std::span<const SplitPoint> splits);
+
+    SplitModel model_;
+    SplitSearch search_;
+    SplitSearchOptions options_;
+    std::vector<std::uint32_t> bad_;
+    std::vector<PlacedPoint> baseline_;
+};
 
 }  // namespace delmesh

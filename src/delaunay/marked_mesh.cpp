@@ -18,6 +18,24 @@ bool MarkedMesh::is_flippable(HalfedgeId h) {
     return mesh_.point(u) != mesh_.point(v) && !hubs_.are_joined(mesh_, u, v);
 }
 
+MarkedMesh::MarkedMesh(Mesh& copy, const MarkedMesh& other)
+    : mesh_(copy),
+      marks_(other.marks_),
+      facets_(other.facets_),
+      splits_(other.splits_),
+      input_vertices_(other.input_vertices_),
+      merged_(other.merged_) {}
+
+void MarkedMesh::take(MarkedMesh&& other) {
+    mesh_ = std::move(other.mesh_);
+    marks_ = std::move(other.marks_);
+    facets_ = std::move(other.facets_);
+    splits_ = std::move(other.splits_);
+    input_vertices_ = other.input_vertices_;
+    merged_ = std::move(other.merged_);
+    hubs_.clear();
+}
+
 HalfedgeId MarkedMesh::flip_planar(HalfedgeId h) {
     const HalfedgeId t = mesh_.twin(h);
     hubs_.part(mesh_.origin(h), mesh_.target(h));

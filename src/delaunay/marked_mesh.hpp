@@ -24,10 +24,16 @@ public:
     /// `marks`: one per half-edge, twins alike; `facets`: one per face, or none at all where nobody asks.
     MarkedMesh(Mesh& mesh, std::vector<Mark> marks, std::vector<FaceId> facets);
 
+    /// The same marks for a mesh that is a copy of other's.
+    MarkedMesh(Mesh& copy, const MarkedMesh& other);
+    /// Takes over the mesh and the marks of another one, which is of no more use.
+    void take(MarkedMesh&& other);
+
     [[nodiscard]] const Mesh& mesh() const { return mesh_; }
     [[nodiscard]] bool is_planar(HalfedgeId h) const { return marks_[h.index()] == Mark::planar; }
     [[nodiscard]] std::size_t input_vertices() const { return input_vertices_; }
     [[nodiscard]] std::size_t split_count() const { return splits_.size(); }
+    [[nodiscard]] const std::vector<SplitPoint>& splits() const { return splits_; }
     [[nodiscard]] bool is_input(VertexId v) const { return v.index() < input_vertices_; }
     /// Where split vertex v lies. Requires !is_input(v).
     [[nodiscard]] const SplitPoint& split_point(VertexId v) const { return splits_[v.index() - input_vertices_]; }

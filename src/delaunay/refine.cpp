@@ -1,34 +1,49 @@
 #include "delaunay/refine.hpp"
 
+#include "delaunay/clean.hpp"
 #include "delaunay/non_delaunay.hpp"
 #include "delaunay/splitter.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace delmesh {
 namespace {
 
 class Refinement {
 public:
-    Refinement(MarkedMesh& marked, const RemeshOptions& options, const Context* context, RemeshReport& report)
+    Refinement(MarkedMesh& marked, const RemeshOptions& options, const Context* context, RemeshReport& report,
+               std::vector<HalfedgeId> queue)
         : marked_(marked),
           mesh_(marked.mesh()),
           context_(context),
           report_(report),
+          splits_(std::move(queue)),
           splitter_(marked, options, report, suspects_) {}
 
-    void run(const SplitPlanner& planner) {
+    RefineStart flip_planar_edges() {
         suspects_ = find_non_delaunay(mesh_, context_);
         std::reverse(suspects_.begin(), suspects_.end());
         flip_suspects();
-        const std::vector<EdgeId> bad = find_bad();
+        std::vector<EdgeId> bad = find_bad();
         report_.lower_bound = bad.size();
-        if (planner && !bad.empty()) {
-            carry_out(planner(marked_, bad));
-        } else {
-            marked_.reserve_splits(6 * bad.size());
+        return {std::move(splits_), std::move(bad)};
+    }
+
+    /// What is left to be split afterwards.
+    std::vector<HalfedgeId> carry_out(std::span<const SplitPoint> plan) {
+        marked_.reserve_splits(plan.size() + plan.size() / 8);
+        for (std::size_t begin = 0, end = 0; begin < plan.size() && !splitter_.stopped(); begin = end) {
+            while (end < plan.size() && plan[end].a == plan[begin].a && plan[end].b == plan[begin].b) ++end;
+            splitter_.split_edge_at(plan.subspan(begin, end - begin));
         }
+        flip_suspects();
+        std::erase_if(splits_, [&](HalfedgeId h) { return !is_non_delaunay(mesh_, h); });
+        return std::move(splits_);
+    }
+
+    void split_rest() {
         while (!splitter_.stopped() && next_split_ < splits_.size()) {
             treat(splits_[next_split_++]);
             flip_suspects();
@@ -67,16 +82,6 @@ private:
         std::sort(bad.begin(), bad.end());
         bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
         return bad;
-    }
-
-    void carry_out(const std::vector<SplitPoint>& plan) {
-        if (is_cancelled(context_)) return splitter_.stop(StopReason::cancelled, splits_.front());
-        marked_.reserve_splits(plan.size() + plan.size() / 8);
-        for (std::size_t begin = 0, end = 0; begin < plan.size() && !splitter_.stopped(); begin = end) {
-            while (end < plan.size() && plan[end].a == plan[begin].a && plan[end].b == plan[begin].b) ++end;
-            splitter_.split_edge_at({plan.data() + begin, end - begin});
-        }
-        flip_suspects();
     }
 
     /// One edge of the queue, which may have become Delaunay, flippable or another edge in the meantime.
@@ -120,9 +125,39 @@ private:
 
 }  // namespace
 
-void refine(MarkedMesh& marked, const RemeshOptions& options, const Context* context, RemeshReport& report,
-            const SplitPlanner& planner) {
-    Refinement(marked, options, context, report).run(planner);
+RefineStart flip_planar_edges(MarkedMesh& marked, const RemeshOptions& options, const Context* context,
+                              RemeshReport& report) {
+    return Refinement(marked, options, context, report, {}).flip_planar_edges();
+}
+
+std::vector<HalfedgeId> carry_out(MarkedMesh& marked, const RemeshOptions& options, const Context* context,
+                                  RemeshReport& report, const RefineStart& start, std::span<const SplitPoint> plan) {
+    return Refinement(marked, options, context, report, start.queue).carry_out(plan);
+}
+
+void split_rest(MarkedMesh& marked, const RemeshOptions& options, const Context* context, RemeshReport& report,
+                std::vector<HalfedgeId> queue) {
+    Refinement(marked, options, context, report, std::move(queue)).split_rest();
+}
+
+void refine_and_clean(MarkedMesh& marked, const RemeshOptions& options, const Context* context, RemeshReport& report,
+                      std::vector<HalfedgeId> queue) {
+    constexpr int most_cleanings = 50;
+    const std::size_t lower_bound = report.lower_bound;
+    split_rest(marked, options, context, report, std::move(queue));
+    for (int round = 0; report.stop == StopReason::done; ++round) {
+        const Cleaning cleaning = clean_up(marked, context);
+        if (cleaning.changes == 0 && !cleaning.left) break;
+        if (cleaning.changes == 0 || round == most_cleanings) {
+            report.stop = StopReason::unresolved;
+            report.witness = cleaning.left;
+            break;
+        }
+        std::vector<HalfedgeId> again = flip_planar_edges(marked, options, context, report).queue;
+        split_rest(marked, options, context, report, std::move(again));
+    }
+    report.lower_bound = lower_bound;
+    report.splits = marked.split_count();
 }
 
 }  // namespace delmesh

@@ -5,19 +5,34 @@
 #include "delmesh/base/context.hpp"
 #include "delmesh/delaunay/remesh.hpp"
 
-#include <functional>
 #include <span>
 #include <vector>
 
 namespace delmesh {
 
-/// Chooses points for physical edges: `bad` are those that are not Delaunay, in order, while all planar ones are.
-/// Ordered by edge and parameter.
-using SplitPlanner = std::function<std::vector<SplitPoint>(const MarkedMesh& marked, std::span<const EdgeId> bad)>;
+/// What is left to do once planar edges are Delaunay, but for those that can not be flipped.
+struct RefineStart {
+    std::vector<HalfedgeId> queue;  ///< what has to be split; may name edges that are Delaunay, or one twice
+    std::vector<EdgeId> bad;        ///< the physical edges among them, sorted: each must be split by any method
+};
 
-/// Runs until every edge is Delaunay or a reason to stop turns up. Fills everything of the report but the provenance.
-/// With a planner, its points are put in first; what is not Delaunay after that is split at shells.
-void refine(MarkedMesh& marked, const RemeshOptions& options, const Context* context, RemeshReport& report,
-            const SplitPlanner& planner = {});
+/// The first step: flips planar edges. Fills the report's flips and lower bound.
+RefineStart flip_planar_edges(MarkedMesh& marked, const RemeshOptions& options, const Context* context,
+                              RemeshReport& report);
+
+/// Splits physical edges at these points, which are ordered by edge and parameter, and flips planar edges. Returns the
+/// edges that are not Delaunay after that.
+[[nodiscard]] std::vector<HalfedgeId> carry_out(MarkedMesh& marked, const RemeshOptions& options,
+                                                const Context* context, RemeshReport& report, const RefineStart& start,
+                                                std::span<const SplitPoint> plan);
+
+/// The second step: splits at shells and flips, until every edge is Delaunay or a reason to stop turns up.
+void split_rest(MarkedMesh& marked, const RemeshOptions& options, const Context* context, RemeshReport& report,
+                std::vector<HalfedgeId> queue);
+
+/// The same; where rounding has made edges without length or faces without area, these are taken away. Fills everything
+/// of the report but the provenance.
+void refine_and_clean(MarkedMesh& marked, const RemeshOptions& options, const Context* context, RemeshReport& report,
+                      std::vector<HalfedgeId> queue);
 
 }  // namespace delmesh

@@ -1,9 +1,9 @@
 #include "delmesh/delaunay/remesh.hpp"
 
-#include "delaunay/choose_splits.hpp"
 #include "delaunay/classify.hpp"
 #include "delaunay/clean.hpp"
 #include "delaunay/features.hpp"
+#include "delaunay/fewest.hpp"
 #include "delaunay/flip.hpp"
 #include "delaunay/marked_mesh.hpp"
 #include "delaunay/non_delaunay.hpp"
@@ -82,64 +82,24 @@ std::span<const std::string_view> choices(SplitPlacement) {
 
 namespace {
 
-/// Rounds of removing what rounding has flattened and refining again.
+/// Rounds of removing what rounding has flattened and flipping again.
 constexpr int most_cleanings = 50;
 
-/// Algorithm 1; where rounding has made edges without length or faces without area, these are taken away.
-void refine_and_clean(MarkedMesh& marked, const RemeshOptions& options, const Context* context, RemeshReport& report,
-                      const SplitPlanner& planner = {}) {
-    refine(marked, options, context, report, planner);
-    const std::size_t lower_bound = report.lower_bound;
-    for (int round = 0; report.stop == StopReason::done; ++round) {
-        const Cleaning cleaning = clean_up(marked, context);
-        if (cleaning.changes == 0 && !cleaning.left) break;
-        if (cleaning.changes == 0 || round == most_cleanings) {
-            report.stop = StopReason::unresolved;
-            report.witness = cleaning.left;
-            break;
-        }
-        refine(marked, options, context, report);
-    }
-    report.lower_bound = lower_bound;
-    report.splits = marked.split_count();
-}
-
 /// Algorithm 1 on a mesh without zero-area faces.
-void preserve_surface(Mesh& mesh, const RemeshOptions& options, const Context* context, RemeshReport& report,
-                      const SplitPlanner& planner = {}) {
+void preserve_surface(Mesh& mesh, const RemeshOptions& options, const Context* context, RemeshReport& report) {
     std::vector<Mark> marks = mark_edges(mesh, context);
     std::vector<FaceId> facets = find_facets(mesh, marks);
     std::vector<FaceId> input_facets = facets;
     MarkedMesh marked(mesh, std::move(marks), std::move(facets));
-    refine_and_clean(marked, options, context, report, planner);
+    RefineStart start = flip_planar_edges(marked, options, context, report);
+    if (options.placement == SplitPlacement::fewest && !start.bad.empty()) {
+        preserve_with_fewest(marked, options, context, report, start);
+    } else {
+        marked.reserve_splits(6 * start.bad.size());
+        refine_and_clean(marked, options, context, report, std::move(start.queue));
+    }
     report.provenance = marked.take_provenance();
     report.provenance.facet_of_input_face = std::move(input_facets);
-}
-
-/// Searches for better places than the shells, which are kept where the search is not better.
-void preserve_with_fewest(Mesh& mesh, const RemeshOptions& options, const Context* context, RemeshReport& report) {
-    Mesh by_shells = mesh;
-    RemeshReport shells = report;
-    preserve_surface(by_shells, options, context, shells);
-    const bool usable = shells.stop == StopReason::done;
-    const std::size_t splits_by_shells = usable ? shells.splits : 0;
-    if (shells.stop == StopReason::cancelled || (usable && shells.splits == shells.lower_bound)) {
-        mesh = std::move(by_shells);
-        report = std::move(shells);
-        return;
-    }
-    const SplitPlanner planner = [&](const MarkedMesh& marked, std::span<const EdgeId> bad) {
-        std::vector<SplitPoint> baseline;
-        if (usable) baseline = shells.provenance.splits;
-        return choose_splits(marked, bad, baseline, {static_cast<int>(options.effort), options.seed}, context);
-    };
-    preserve_surface(mesh, options, context, report, planner);
-    if (usable && report.stop != StopReason::cancelled &&
-        (report.stop != StopReason::done || report.splits >= shells.splits)) {
-        mesh = std::move(by_shells);
-        report = std::move(shells);
-    }
-    report.splits_by_shells = splits_by_shells;
 }
 
 /// Algorithm 2 and section 6: flips, then Algorithm 1 for what is left, with all vertices of that moment as input.
@@ -164,7 +124,9 @@ void flip_surface(Mesh& mesh, const RemeshOptions& options, const Context* conte
 
     RemeshReport rest;
     MarkedMesh refining(mesh, mark_edges(mesh, context), {});
-    refine_and_clean(refining, options, context, rest);
+    RefineStart start = flip_planar_edges(refining, options, context, rest);
+    refining.reserve_splits(6 * start.bad.size());
+    refine_and_clean(refining, options, context, rest, std::move(start.queue));
     report.stop = rest.stop;
     report.witness = rest.witness;
     report.flips += rest.flips;
@@ -191,9 +153,7 @@ RemeshReport make_delaunay(Mesh& mesh, const RemeshOptions& options, const Conte
     report_progress(context, "classify", 0);
     RemeshReport report;
     report.flips = remove_caps(mesh, context);
-    if (effective.mode == RemeshMode::preserve && effective.placement == SplitPlacement::fewest) {
-        preserve_with_fewest(mesh, effective, context, report);
-    } else if (effective.mode == RemeshMode::preserve) {
+    if (effective.mode == RemeshMode::preserve) {
         preserve_surface(mesh, effective, context, report);
     } else {
         flip_surface(mesh, effective, context, report);

@@ -14,6 +14,8 @@ constexpr double flat = 1e-14;
 /// Ties are no violations: what the model can not tell is left to the exact signs at the end.
 constexpr double tie_interior = 1e-13;
 constexpr double tie_boundary = 1e-12;
+/// Half of what new points keep.
+constexpr double distance = 1e-10;
 constexpr std::size_t few = 6;
 
 /// The parameter of the point of the line p + u d that sees [a,b] under the largest angle.
@@ -134,8 +136,10 @@ bool SplitModel::is_bad(std::uint32_t e, const Part& part) const {
     const FacetLayout::Edge& edge = layout_.edge(e);
     if (states_[e].count == 1 && part.culprit[0] == none && part.culprit[1] == none) return !edge.is_delaunay;
     const double sum = part.cot[0] + part.cot[1];
+    const double size = std::fabs(part.cot[0]) + std::fabs(part.cot[1]);
+    if (states_[e].distrusted) return sum < distance * size;
     if (edge.side[0] == none || edge.side[1] == none) return sum < -tie_boundary;
-    return sum < -tie_interior * (std::fabs(part.cot[0]) + std::fabs(part.cot[1]));
+    return sum < -tie_interior * size;
 }
 
 int SplitModel::first_bad(std::uint32_t e) const {

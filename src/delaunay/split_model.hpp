@@ -58,6 +58,8 @@ public:
     void cut(std::uint32_t e, std::size_t first, std::size_t last, std::span<const double> points);
 
     // --- judgement ---
+    /// From now on the parts of this edge must keep a distance from ties.
+    void distrust(std::uint32_t e) { states_[e].distrusted = true; }
     [[nodiscard]] bool is_bad(std::uint32_t e, const Part& part) const;
     /// The first part that is not Delaunay, or -1.
     [[nodiscard]] int first_bad(std::uint32_t e) const;
@@ -104,6 +106,7 @@ private:
         bool movable = true;
         bool suspected = false;
         bool given_up = false;
+        bool distrusted = false;
     };
     struct Saved {
         std::uint32_t edge = 0;

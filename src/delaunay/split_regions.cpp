@@ -1,5 +1,6 @@
 #include "delaunay/split_regions.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 namespace delmesh {
@@ -7,14 +8,15 @@ namespace {
 
 class Regions {
 public:
-    Regions(const SplitModel& model, std::span<const PlacedPoint> other)
+    Regions(const SplitModel& model, std::span<const PlacedPoint> ours, std::span<const PlacedPoint> theirs)
         : layout_(model.layout()),
           parent_(layout_.facet_count()),
           touched_(layout_.facet_count(), false) {
         std::iota(parent_.begin(), parent_.end(), 0u);
         for (std::uint32_t e = 0; e < model.edge_count(); ++e)
             if (model.point_count(e) > 0) touch(e);
-        for (const PlacedPoint& point : other) touch(point.edge);
+        for (const PlacedPoint& point : ours) touch(point.edge);
+        for (const PlacedPoint& point : theirs) touch(point.edge);
         for (std::uint32_t e = 0; e < layout_.edge_count(); ++e) join_sides(e);
     }
 
@@ -60,37 +62,43 @@ struct Balance {
 
 }  // namespace
 
-std::size_t take_better_regions(SplitModel& model, std::span<const std::uint32_t> open,
-                                std::span<const PlacedPoint> other) {
-    Regions regions(model, other);
-    std::vector<Balance> balance(model.layout().facet_count());
+std::vector<PlacedPoint> placed_points(const SplitModel& model) {
+    std::vector<PlacedPoint> points;
+    points.reserve(model.point_count());
     for (std::uint32_t e = 0; e < model.edge_count(); ++e)
-        if (model.point_count(e) > 0) balance[regions.of(e)].ours += model.point_count(e);
-    for (const PlacedPoint& point : other) ++balance[regions.of(point.edge)].theirs;
+        for (std::uint32_t i = 0; i < model.point_count(e); ++i) points.push_back({e, model.parts(e)[i].end});
+    return points;
+}
+
+std::size_t take_better_regions(SplitModel& model, std::span<const std::uint32_t> open,
+                                std::span<const PlacedPoint> ours, std::span<const PlacedPoint> theirs) {
+    Regions regions(model, ours, theirs);
+    std::vector<Balance> balance(model.layout().facet_count());
+    for (const PlacedPoint& point : ours) ++balance[regions.of(point.edge)].ours;
+    for (const PlacedPoint& point : theirs) ++balance[regions.of(point.edge)].theirs;
     for (const std::uint32_t e : open) balance[regions.of(e)].is_open = true;
+    const auto worse = [&](std::uint32_t e) { return balance[regions.of(e)].is_worse(); };
 
     std::vector<std::uint32_t> to_clear;
     for (std::uint32_t e = 0; e < model.edge_count(); ++e)
-        if (model.point_count(e) > 0 && balance[regions.of(e)].is_worse()) to_clear.push_back(e);
-    std::vector<bool> take(other.size());
-    for (std::size_t i = 0; i < other.size(); ++i) take[i] = balance[regions.of(other[i].edge)].is_worse();
+        if (model.point_count(e) > 0 && worse(e)) to_clear.push_back(e);
+    std::vector<bool> take(theirs.size());
+    for (std::size_t i = 0; i < theirs.size(); ++i) take[i] = worse(theirs[i].edge);
     for (const std::uint32_t e : to_clear) {
         model.prepare(e);
         model.cut(e, 0, model.point_count(e), {});
     }
     std::vector<double> points;
-    for (std::size_t i = 0; i < other.size(); ++i) {
+    for (std::size_t i = 0; i < theirs.size(); ++i) {
         if (!take[i]) continue;
-        points.push_back(other[i].at);
-        if (i + 1 < other.size() && other[i + 1].edge == other[i].edge) continue;
-        model.prepare(other[i].edge);
-        model.cut(other[i].edge, 0, 0, points);
+        points.push_back(theirs[i].at);
+        if (i + 1 < theirs.size() && theirs[i + 1].edge == theirs[i].edge) continue;
+        model.prepare(theirs[i].edge);
+        model.cut(theirs[i].edge, 0, 0, points);
         points.clear();
     }
-    std::size_t changed = 0;
-    for (const Balance& b : balance)
-        if (b.is_worse()) ++changed;
-    return changed;
+    return static_cast<std::size_t>(
+        std::count_if(balance.begin(), balance.end(), [](const Balance& b) { return b.is_worse(); }));
 }
 
 }  // namespace delmesh

@@ -18,10 +18,13 @@ struct PlacedPoint {
     }
 };
 
-/// Replaces the model's points by those of `other` (a solution, sorted) in each region where the model has an edge of
-/// `open` or more points. Regions are connected sets of facets that either solution touches; solutions of different
-/// regions do not depend on each other. Returns the number of regions that changed.
+/// The points of the model, sorted.
+[[nodiscard]] std::vector<PlacedPoint> placed_points(const SplitModel& model);
+
+/// Replaces the model's points by those of `theirs` in each region where that has fewer than `ours`, or where an edge
+/// of `open` lies. Both are sorted; `ours` is what the model's points come to. Regions are connected sets of facets
+/// that any of the solutions touches; what happens in one does not depend on another. Returns how many regions changed.
 std::size_t take_better_regions(SplitModel& model, std::span<const std::uint32_t> open,
-                                std::span<const PlacedPoint> other);
+                                std::span<const PlacedPoint> ours, std::span<const PlacedPoint> theirs);
 
 }  // namespace delmesh

@@ -8,6 +8,8 @@ namespace {
 
 constexpr int first_rounds = 6;
 constexpr std::size_t first_steps = 50;
+constexpr int mend_tries = 6;
+constexpr int borrow_tries = 3;
 constexpr double open_share = 0.3;
 constexpr double any_move_share = 0.4;
 constexpr std::size_t memory = 512;  ///< tries after which what moves have gained counts half
@@ -69,6 +71,99 @@ void SplitSearch::attempt_any_open() {
     }
     open_[i] = open_.back();
     open_.pop_back();
+}
+
+// --- borrowing ---
+
+std::span<const PlacedPoint> SplitSearch::others_on(std::uint32_t e) const {
+    const auto by_edge = [](const PlacedPoint& a, const PlacedPoint& b) { return a.edge < b.edge; };
+    const auto [first, last] = std::equal_range(other_.begin(), other_.end(), PlacedPoint{e, 0}, by_edge);
+    return {first, last};
+}
+
+/// The edges nearest to e by facets, of those that are split here or there.
+void SplitSearch::gather_ball(std::uint32_t e, std::size_t size) {
+    edges_.assign(1, e);
+    ++ball_;
+    const auto reach = [&](std::uint32_t other) {
+        if (reached_.size() <= other) reached_.resize(model_.layout().edge_count() + 1, 0);
+        if (reached_[other] == ball_) return false;
+        reached_[other] = ball_;
+        return true;
+    };
+    reach(e);
+    for (std::size_t done = 0; done < edges_.size() && edges_.size() < size; ++done) {
+        model_.prepare(edges_[done]);
+        const std::array<std::uint32_t, 2> sides = model_.layout().edge(edges_[done]).side;
+        for (const std::uint32_t s : sides) {
+            if (s == SplitModel::none) continue;
+            const Facet facet = model_.layout().facet(model_.layout().side(s).facet);
+            for (std::uint32_t i = facet.first_side; i < facet.first_side + facet.side_count; ++i) {
+                const std::uint32_t other = model_.layout().side(i).edge;
+                if (!model_.is_movable(other) || (model_.point_count(other) == 0 && others_on(other).empty())) continue;
+                if (reach(other)) edges_.push_back(other);
+            }
+        }
+    }
+}
+
+/// Takes over the other solution's points on `size` edges around e, then mends what does not fit at the rim.
+bool SplitSearch::borrow(std::uint32_t e, std::size_t size) {
+    gather_ball(e, size);
+    model_.begin();
+    model_.give_up(e, false);
+    model_.add_suspect(e);
+    for (const std::uint32_t edge : edges_) {
+        borrowed_.clear();
+        for (const PlacedPoint& point : others_on(edge)) borrowed_.push_back(point.at);
+        model_.prepare(edge);
+        model_.cut(edge, 0, model_.point_count(edge), borrowed_);
+    }
+    const std::size_t most = model_.point_count() + 20 + edges_.size();
+    if (repair_.run(most, 50 + 4 * edges_.size(), random_.chance(0.5))) {
+        model_.commit();
+        return true;
+    }
+    model_.rollback();
+    model_.give_up(e, true);
+    return false;
+}
+
+void SplitSearch::close_open() {
+    if (other_.empty()) return;
+    for (std::size_t size = 8; !open_.empty(); size *= 2) {
+        std::size_t left = 0;
+        std::size_t largest = 0;
+        for (const std::uint32_t e : open_) {
+            if (model_.first_bad(e) < 0) {
+                model_.give_up(e, false);
+                continue;
+            }
+            bool closed = false;
+            for (int i = 0; i < borrow_tries && !closed; ++i) closed = borrow(e, size);
+            if (closed) continue;
+            largest = std::max(largest, edges_.size());
+            open_[left++] = e;
+        }
+        open_.resize(left);
+        if (largest < size) return;
+    }
+}
+
+bool SplitSearch::mend(const std::vector<std::uint32_t>& edges) {
+    bool changed = false;
+    for (const std::uint32_t e : edges) {
+        model_.prepare(e);
+        model_.distrust(e);
+    }
+    for (const std::uint32_t e : edges) {
+        if (model_.is_given_up(e) || model_.first_bad(e) < 0) continue;
+        bool closed = false;
+        for (int i = 0; i < mend_tries && !closed; ++i) closed = attempt(e, first_steps << (i / 2), i > 0);
+        if (!closed) open_.push_back(e);
+        changed = changed || closed;
+    }
+    return changed;
 }
 
 // --- improvement ---

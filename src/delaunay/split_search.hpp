@@ -3,11 +3,13 @@
 
 #include "delaunay/random.hpp"
 #include "delaunay/split_model.hpp"
+#include "delaunay/split_regions.hpp"
 #include "delaunay/split_repair.hpp"
 #include "delmesh/base/context.hpp"
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace delmesh {
@@ -19,6 +21,15 @@ public:
     /// Tries to make these edges Delaunay, in several rounds of short attempts. What is left stays `open`: such edges
     /// are not Delaunay, and nothing tries to mend them but further attempts.
     void construct(const std::vector<std::uint32_t>& bad_edges);
+
+    /// A solution to borrow from, sorted; must outlive the search.
+    void set_other(std::span<const PlacedPoint> other) { other_ = other; }
+
+    /// Takes the other solution's points around each open edge, around as few edges as possible, and repairs the rim.
+    void close_open();
+
+    /// Lets these edges keep a distance from ties, and repairs them. False if nothing has changed.
+    bool mend(const std::vector<std::uint32_t>& edges);
 
     /// Takes points away, and tries to close open edges, until that much work is done or little has come of the last
     /// stretch of it. The number of points never grows but to close an edge.
@@ -43,6 +54,9 @@ private:
     };
 
     bool attempt(std::uint32_t e, std::size_t steps, bool clear_first);
+    bool borrow(std::uint32_t e, std::size_t size);
+    void gather_ball(std::uint32_t e, std::size_t size);
+    [[nodiscard]] std::span<const PlacedPoint> others_on(std::uint32_t e) const;
     void attempt_any_open();
     void try_once(std::uint32_t edge);
     Move& choose_move();
@@ -75,11 +89,15 @@ private:
         {Kind::thread, 14, 100},
     }};
     std::size_t tries_ = 0;
+    std::span<const PlacedPoint> other_;
     std::vector<std::uint32_t> open_;
     std::vector<std::uint32_t> spare_;
     std::vector<Target> taken_;
     std::vector<Target> nearby_;
     std::vector<std::uint32_t> edges_;
+    std::vector<double> borrowed_;
+    std::vector<std::uint32_t> reached_;  ///< per edge: the last ball that it was reached by
+    std::uint32_t ball_ = 0;
 };
 
 }  // namespace delmesh

@@ -1,0 +1,123 @@
+#include "delaunay/fewest.hpp"
+
+#include "delaunay/choose_splits.hpp"
+#include "delaunay/split_point.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+namespace delmesh {
+namespace {
+
+/// Rounds of putting the points in and mending, in the model, what rounding breaks.
+constexpr int most_trials = 4;
+
+/// A copy of the mesh to try something on.
+struct Trial {
+    Trial(const MarkedMesh& from, const RemeshReport& so_far) : mesh(from.mesh()), marked(mesh, from), report(so_far) {}
+    ~Trial() = default;
+    Trial(const Trial&) = delete;
+    Trial(Trial&&) = delete;
+    Trial& operator=(const Trial&) = delete;
+    Trial& operator=(Trial&&) = delete;
+
+    [[nodiscard]] bool done() const { return report.stop == StopReason::done; }
+    [[nodiscard]] bool cancelled() const { return report.stop == StopReason::cancelled; }
+    [[nodiscard]] bool beats(const Trial& other) const {
+        return done() && (!other.done() || report.splits < other.report.splits);
+    }
+
+    Mesh mesh;
+    MarkedMesh marked;
+    RemeshReport report;
+};
+
+using TrialPointer = std::unique_ptr<Trial>;
+
+std::vector<std::array<VertexId, 2>> input_edges(const Trial& trial, const std::vector<HalfedgeId>& parts) {
+    std::vector<std::array<VertexId, 2>> edges;
+    for (const HalfedgeId h : parts) {
+        if (trial.marked.is_planar(h)) continue;
+        const EdgePart part = part_of_input_edge(trial.marked, h);
+        edges.push_back({part.a, part.b});
+    }
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    return edges;
+}
+
+class Contest {
+public:
+    Contest(const MarkedMesh& marked, const RemeshOptions& options, const Context* context, const RefineStart& start,
+            const RemeshReport& report)
+        : marked_(marked),
+          options_(options),
+          context_(context),
+          start_(start),
+          report_(report) {}
+
+    TrialPointer run() {
+        TrialPointer best = by_shells();
+        const std::size_t splits_by_shells = best->done() ? best->report.splits : 0;
+        if (!best->cancelled() && splits_by_shells != start_.bad.size()) best = better_of(std::move(best));
+        best->report.splits_by_shells = splits_by_shells;
+        return best;
+    }
+
+private:
+    TrialPointer by_shells() {
+        auto trial = std::make_unique<Trial>(marked_, report_);
+        trial->marked.reserve_splits(6 * start_.bad.size());
+        refine_and_clean(trial->marked, options_, context_, trial->report, start_.queue);
+        return trial;
+    }
+
+    TrialPointer better_of(TrialPointer shells) {
+        SplitChooser chooser(marked_, start_.bad, {static_cast<int>(options_.effort), options_.seed});
+        if (shells->done()) chooser.set_baseline(shells->marked.splits());
+        chooser.search(context_);
+        TrialPointer trial = by_plan(chooser);
+        if (!shells->done() || trial->cancelled()) return trial;
+        // By now it is known what the points cost in truth: regions where the shells need fewer take these.
+        TrialPointer second;
+        if (chooser.take_better_regions(trial->marked.splits())) second = by_plan(chooser);
+        if (second && second->cancelled()) return second;
+        if (second && second->beats(*trial)) trial = std::move(second);
+        return trial->beats(*shells) ? std::move(trial) : std::move(shells);
+    }
+
+    TrialPointer by_plan(SplitChooser& chooser) {
+        for (int round = 1;; ++round) {
+            auto trial = std::make_unique<Trial>(marked_, report_);
+            if (is_cancelled(context_)) {
+                trial->report.stop = StopReason::cancelled;
+                return trial;
+            }
+            std::vector<HalfedgeId> left =
+                carry_out(trial->marked, options_, context_, trial->report, start_, chooser.splits());
+            if (!left.empty() && trial->done() && round < most_trials && chooser.mend(input_edges(*trial, left)))
+                continue;
+            if (trial->done()) refine_and_clean(trial->marked, options_, context_, trial->report, std::move(left));
+            trial->report.splits = trial->marked.split_count();
+            return trial;
+        }
+    }
+
+    const MarkedMesh& marked_;
+    const RemeshOptions& options_;
+    const Context* context_;
+    const RefineStart& start_;
+    const RemeshReport& report_;
+};
+
+}  // namespace
+
+void preserve_with_fewest(MarkedMesh& marked, const RemeshOptions& options, const Context* context,
+                          RemeshReport& report, const RefineStart& start) {
+    const TrialPointer best = Contest(marked, options, context, start, report).run();
+    report = std::move(best->report);
+    marked.take(std::move(best->marked));
+}
+
+}  // namespace delmesh

@@ -1,0 +1,13 @@
+#pragma once
+// Placement fewest: searches for few split points, and keeps the shells where these are not fewer.
+
+#include "delaunay/refine.hpp"
+
+namespace delmesh {
+
+/// As `refine_and_clean` after `start`, but never with more splits. Fills the same of the report, and
+/// `splits_by_shells`.
+void preserve_with_fewest(MarkedMesh& marked, const RemeshOptions& options, const Context* context,
+                          RemeshReport& report, const RefineStart& start);
+
+}  // namespace delmesh
