@@ -38,8 +38,8 @@ public:
     /// Collapses until so many vertices are left, nothing can be collapsed any more, or the context is cancelled.
     void run(std::size_t vertices, const Context* context = nullptr);
 
-    /// From now on samples of the surface as it is, with its first `count` vertices, are followed.
-    void follow_samples(std::size_t count) { samples_.emplace(mesh_, count, scale_); }
+    /// From now on `most` or fewer samples of the surface as it is, with its first `count` vertices, are followed.
+    void follow_samples(std::size_t count, std::size_t most) { samples_.emplace(mesh_, count, scale_, most); }
     /// On the last part of the way to so many vertices, collapses must not leave a sample far from the surface, nor the
     /// surface far from the samples: such edges wait until the mean error has grown or nothing else is left.
     void guard_for(std::size_t vertices);

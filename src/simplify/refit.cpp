@@ -5,8 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace delmesh {
+namespace {
+
+/// Samples no farther than this (squared, local unit) are left as they are.
+constexpr double negligible2 = 1e-16;
+
+}  // namespace
 
 Refitter::Refitter(Mesh& mesh, SurfaceSamples& samples, Placer& placer, double scale,
                    std::function<Vec3(const Vec3&)> settle, std::function<void(VertexId, const Vec3&)> moved)
@@ -43,7 +50,7 @@ bool Refitter::refit_vertex(VertexId v, const RefitTuning& tuning, double allowe
     gather(mesh_, v, scale_, star_);
     samples_.gather(star_);
     EdgeCost cost;
-    if (!build_cost(tuning, cost)) return false;
+    if (!(samples_.present().forward > negligible2) || !build_cost(tuning, cost)) return false;
     const auto place = placer_.improve(star_, cost, Vec3{});
     if (!place || place->cost > (1 - tuning.least_gain) * cost.steered({})) return false;
     const Vec3 w = settle_(star_.frame.to_mesh(place->point));
@@ -61,11 +68,20 @@ bool Refitter::refit_vertex(VertexId v, const RefitTuning& tuning, double allowe
 
 std::size_t Refitter::run(const RefitTuning& tuning, double allowed2, const Context* context) {
     std::size_t moves = 0;
+    // What failed fails again as long as nothing around it has moved.
+    std::vector<bool> changed(mesh_.vertex_count(), true);
     for (int round = 0; round < tuning.rounds && !is_cancelled(context); ++round) {
         for (std::size_t v = 0; v < mesh_.vertex_count(); ++v) {
             const VertexId id(v);
-            if (!mesh_.halfedge(id).valid() || mesh_.is_boundary(id)) continue;
-            moves += refit_vertex(id, tuning, allowed2) ? 1 : 0;
+            if (!changed[v] || !mesh_.halfedge(id).valid() || mesh_.is_boundary(id)) continue;
+            changed[v] = false;
+            if (!refit_vertex(id, tuning, allowed2)) continue;
+            ++moves;
+            changed[v] = true;
+            for (const Star::Corner& corner : star_.ring) {
+                changed[corner.vertex.index()] = true;
+                if (corner.outer.valid()) changed[corner.outer.index()] = true;
+            }
         }
     }
     return moves;

@@ -7,21 +7,24 @@
 
 namespace delmesh {
 
-SurfaceSamples::SurfaceSamples(const Mesh& mesh, std::size_t count, double scale) : first_(mesh.face_count(), none) {
+SurfaceSamples::SurfaceSamples(const Mesh& mesh, std::size_t count, double scale, std::size_t most)
+    : first_(mesh.face_count(), none) {
     const auto normal_of = [&](HalfedgeId h) {
         const Frame frame{scale, 1 / scale, mesh.point(mesh.origin(h))};
         return cross(frame.to_local(mesh.point(mesh.target(h))), frame.to_local(mesh.point(mesh.apex(h))));
     };
     const std::size_t vertices = std::min(count, mesh.vertex_count());
-    samples_.reserve(vertices + mesh.face_count());
-    for (std::size_t i = 0; i < vertices; ++i) {
+    const std::size_t all = vertices + mesh.face_count();
+    const std::size_t stride = std::max<std::size_t>(1, all / std::max<std::size_t>(1, most));
+    samples_.reserve(all / stride + 2);
+    for (std::size_t i = 0; i < vertices; i += stride) {
         const VertexId v(i);
         if (!mesh.halfedge(v).valid()) continue;
         Vec3 normal;
         each_outgoing(mesh, v, [&](HalfedgeId h) { normal = normal + normal_of(h); });
         add(mesh.point(v), normal * (1.0 / 12), Mesh::face(mesh.halfedge(v)));
     }
-    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    for (std::size_t f = 0; f < mesh.face_count(); f += stride) {
         const HalfedgeId h = Mesh::halfedge(FaceId(f));
         const Vec3 third = (mesh.point(mesh.origin(h)) * (1.0 / 3) + mesh.point(mesh.target(h)) * (1.0 / 3)) +
                            mesh.point(mesh.apex(h)) * (1.0 / 3);

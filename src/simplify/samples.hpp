@@ -20,11 +20,12 @@ struct SampleError {
     [[nodiscard]] double worst() const { return forward > backward ? forward : backward; }
 };
 
-/// The first `count` vertices of a mesh and the middles of its faces, followed through collapses and moves. A sample
+/// Of the first `count` vertices of a mesh and the middles of its faces, followed through collapses and moves. A sample
 /// stays with the faces around the vertex that changed, so it keeps to its side of a thin part.
 class SurfaceSamples {
 public:
-    SurfaceSamples(const Mesh& mesh, std::size_t count, double scale);
+    /// Takes about `most` of them, evenly by index.
+    SurfaceSamples(const Mesh& mesh, std::size_t count, double scale, std::size_t most);
 
     struct Member {
         Vec3 point;  ///< local to the star

@@ -46,6 +46,12 @@ std::vector<std::size_t> find_targets(const SimplifyOptions& options, std::size_
     return targets;
 }
 
+/// How many samples of the original are followed on the way to so many vertices.
+std::size_t samples_for(std::size_t vertices) {
+    const Tuning tuning;
+    return static_cast<std::size_t>(std::min(1e9, tuning.samples + tuning.density * static_cast<double>(vertices)));
+}
+
 Tuning tuning_for(const SimplifyOptions& options) {
     constexpr double radians = 3.14159265358979323846 / 180;
     Tuning tuning;
@@ -149,8 +155,8 @@ SimplifyReport run(Mesh& mesh, const SimplifyOptions& options, ProgressiveMesh* 
     Decimator decimator(mesh, tuning_for(options), {options.max_quadric_error_rel * diagonal, options.remesh.precision},
                         record != nullptr ? &recorder : nullptr);
     const bool refit = options.refit && options.max_quadric_error_rel == 0 && options.placement == Placement::best;
-    if (refit) decimator.follow_samples(report.input_vertices);
     const std::vector<std::size_t> targets = find_targets(options, report.input_vertices);
+    if (refit) decimator.follow_samples(report.input_vertices, samples_for(targets.front()));
     for (const std::size_t target : targets) {
         decimator.guard_for(target);
         if (refit) report.moves += refit_on_the_way(decimator, report.input_vertices, target, context);

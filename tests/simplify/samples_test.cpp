@@ -34,7 +34,7 @@ class SamplesOf : public testing::TestWithParam<const char*> {};
 
 TEST_P(SamplesOf, AreMeasuredToTheNearestFaceOfTheStar) {
     Mesh mesh = delaunay_sample(GetParam(), 2000);
-    SurfaceSamples samples(mesh, mesh.vertex_count(), 1);
+    SurfaceSamples samples(mesh, mesh.vertex_count(), 1, 1'000'000);
     test::Random random(7);
     Star star;
     for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
@@ -60,7 +60,7 @@ TEST_P(SamplesOf, AreAllKeptAndKnowTheirDistanceAfterDecimation) {
     const std::size_t faces = mesh.face_count();
     const std::size_t vertices = mesh.vertex_count();
     Decimator decimator(mesh, Tuning{});
-    decimator.follow_samples(vertices);
+    decimator.follow_samples(vertices, 1'000'000);
     decimator.run(vertices / 4);
     decimator.refit({});
     decimator.run(vertices / 8);
@@ -90,7 +90,7 @@ TEST(Samples, GuardingKeepsTheWorstOneClose) {
         Tuning tuning;
         tuning.guard = guard;
         Decimator decimator(mesh, tuning);
-        decimator.follow_samples(mesh.vertex_count());
+        decimator.follow_samples(mesh.vertex_count(), 1'000'000);
         decimator.guard_for(decimator.vertices() / 20);
         decimator.run(decimator.vertices() / 20);
         double forward2 = 0;
