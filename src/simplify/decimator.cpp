@@ -197,11 +197,20 @@ void Decimator::release_parked() {
     }
 }
 
+/// Watching the condition that failed does not see everything that may help: before giving up, all edges have another
+/// turn, unless hardly anything has changed since the last time.
+bool Decimator::retry() {
+    if (counts_.collapses <= retried_ + vertices_ / 1024) return false;
+    retried_ = counts_.collapses;
+    enqueue_all();
+    return !queue_.empty();
+}
+
 void Decimator::run(std::size_t vertices, const Context* context) {
     const std::size_t start = vertices_;
     while (vertices_ > vertices) {
         if (samples_) release_parked();
-        if (queue_.empty()) return;
+        if (queue_.empty() && !retry()) return;
         if (++counts_.popped % report_interval == 0) {
             if (is_cancelled(context)) return;
             report_progress(context, "simplify",

@@ -85,6 +85,7 @@ private:
     [[nodiscard]] double allowed2() const;
     void park(HalfedgeId h, double distance2);
     void release_parked();
+    bool retry();
     void process(const Queue::Entry& entry);
     [[nodiscard]] Vec3 settled(const Vec3& w) const;
     [[nodiscard]] bool exceeds_error(const Quadric& merged);
@@ -109,7 +110,8 @@ private:
     Queue queue_;
     std::optional<SurfaceSamples> samples_;
     std::size_t guarded_ = 0;
-    double raised2_ = 0;  ///< allowed because nothing else was left
+    std::size_t retried_ = 0;  ///< collapses made when all edges had another turn
+    double raised2_ = 0;       ///< allowed because nothing else was left
     Star star_;
     DecimatorCounts counts_;
 };
