@@ -137,6 +137,12 @@ void Console::print(const Json& json) {
     put(json.dump(2, ' ', false, Json::error_handler_t::replace));
 }
 
+void Console::note(std::string_view text) {
+    if (!terminal_) return;
+    clear_line();
+    fmt::print(stderr, "delmesh: {}\n", text);
+}
+
 void Console::say(std::string_view text) {
     if (!options_.quiet) tell(text);
 }

@@ -72,6 +72,8 @@ public:
     void print(const Json& json);
     /// A line for people; nothing with --json or --quiet.
     void say(std::string_view text);
+    /// A line for who waits at a terminal, before the command is done; nothing elsewhere and with --quiet.
+    void note(std::string_view text);
     /// A line for people that is the point of the command: shown with --quiet too.
     void tell(std::string_view text);
 

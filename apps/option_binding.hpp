@@ -19,6 +19,22 @@ void bind(CLI::App& command, const OptionInfo& info, std::size_t& value);
 /// A choice among names; `value` is the index.
 void bind_choice(CLI::App& command, const OptionInfo& info, std::span<const std::string_view> names, int value,
                  const std::function<void(int)>& set);
+/// A number, or one of the names but the last; `rule` is the index of the default.
+void bind_number_by_rule(CLI::App& command, const OptionInfo& info, std::span<const std::string_view> names, int rule,
+                         const std::function<void(int, double)>& set);
+
+template <class Value>
+inline constexpr bool is_number_by_rule = false;
+template <class Rule>
+inline constexpr bool is_number_by_rule<NumberByRule<Rule>> = true;
+
+/// The number, or the name of the rule.
+template <class Rule>
+[[nodiscard]] Json rule_to_json(const NumberByRule<Rule>& value) {
+    const std::span<const std::string_view> names = choices(Rule{});
+    const auto rule = static_cast<std::size_t>(value.rule);
+    return rule + 1 == names.size() ? Json(value.number) : Json(names[rule]);
+}
 }  // namespace detail
 
 /// Adds an option to the command for each field of `options`, with its range, default and help.
@@ -33,9 +49,15 @@ void bind_options(CLI::App& command, Options& options) {
         } else if constexpr (std::same_as<Value, bool> || std::same_as<Value, double> ||
                              std::same_as<Value, std::size_t>) {
             detail::bind(command, info, value);
+        } else if constexpr (detail::is_number_by_rule<Value>) {
+            using Rule = decltype(value.rule);
+            detail::bind_number_by_rule(command, info, choices(Rule{}), static_cast<int>(value.rule),
+                                        [&value](int rule, double number) {
+                                            value = {static_cast<Rule>(rule), number};
+                                        });
         } else {
             static_assert(std::same_as<Value, std::size_t>,
-                          "describe options as bool, double, std::size_t or an enumeration");
+                          "describe options as bool, double, std::size_t, an enumeration or a number by rule");
         }
     });
 }
@@ -52,6 +74,8 @@ template <class Options>
         using Value = std::remove_cvref_t<decltype(value)>;
         if constexpr (std::is_enum_v<Value>) {
             json[key] = choices(Value{})[static_cast<std::size_t>(value)];
+        } else if constexpr (detail::is_number_by_rule<Value>) {
+            json[key] = detail::rule_to_json(value);
         } else {
             json[key] = value;
         }

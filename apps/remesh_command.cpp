@@ -36,6 +36,7 @@ struct Outcome {
     Measured before;
     Measured after;
     RemeshReport report;
+    std::optional<GrowthEstimate> growth;
     std::optional<RepairReport> repair;
     double rounded_by = 0;
     PlacesReport places;
@@ -45,6 +46,13 @@ struct Outcome {
 
     [[nodiscard]] bool complete() const { return report.stop == StopReason::done && after.certificate.certified; }
 };
+
+Json growth_to_json(const GrowthEstimate& growth) {
+    return {{"lower_bound", growth.lower_bound},
+            {"likely_splits", growth.likely_splits},
+            {"sharp_edges", growth.sharp_edges},
+            {"lower_bound_if_flat", growth.lower_bound_if_flat ? Json(*growth.lower_bound_if_flat) : Json()}};
+}
 
 Json run_to_json(const RemeshArguments& arguments, const Outcome& outcome) {
     const RemeshReport& report = outcome.report;
@@ -62,6 +70,9 @@ Json run_to_json(const RemeshArguments& arguments, const Outcome& outcome) {
     json["foldovers"] = report.foldovers;
     if (arguments.options.mode == RemeshMode::preserve) json["lower_bound"] = report.lower_bound;
     if (report.splits_by_shells > 0) json["splits_by_shells"] = report.splits_by_shells;
+    if (outcome.growth) json["growth"] = growth_to_json(*outcome.growth);
+    json["flat_tolerance"] = report.flat_tolerance;
+    json["max_deviation"] = report.max_deviation;
     json["stop"] = name(report.stop);
     json["witness"] = outcome.witness.empty() ? Json() : Json(outcome.witness);
     json["rounded_by"] = outcome.rounded_by;
@@ -75,21 +86,29 @@ Json run_to_json(const RemeshArguments& arguments, const Outcome& outcome) {
     return json;
 }
 
+std::string_view what_to_try(const RemeshOptions& options, const RemeshReport& report) {
+    if (options.mode != RemeshMode::preserve) return "";
+    return report.flat_tolerance > 0 ? "; --mode feature may do with fewer vertices"
+                                     : "; --flat-tolerance 1e-5 or --mode feature may do with fewer vertices";
+}
+
 std::string why_it_stopped(const RemeshArguments& arguments, const Outcome& outcome) {
     const std::string at = outcome.witness.empty() ? std::string()
                                                    : fmt::format(" at the edge between vertices {} and {}",
                                                                  outcome.witness[0], outcome.witness[1]);
     switch (outcome.report.stop) {
         case StopReason::max_vertices:
-            return fmt::format("stopped at {} vertices (--max-vertices){}; {} edges are not Delaunay yet",
+            return fmt::format("stopped at {} vertices (--max-vertices){}; {} edges are not Delaunay yet{}",
                                with_commas(outcome.after.size.vertices), at,
                                with_commas(outcome.after.certificate.non_delaunay_edges +
-                                           outcome.after.certificate.obtuse_boundary_edges));
+                                           outcome.after.certificate.obtuse_boundary_edges),
+                               what_to_try(arguments.options, outcome.report));
         case StopReason::unresolved:
             return fmt::format(
-                "stopped{}: {} precision can not hold a point between its ends that is needed{}", at,
+                "stopped{}: {} precision can not hold a point between its ends that is needed{}{}", at,
                 choices(Precision{})[static_cast<std::size_t>(arguments.options.precision)],
-                arguments.options.precision == Precision::float32 ? "; try a format that stores doubles" : "");
+                arguments.options.precision == Precision::float32 ? "; try a format that stores doubles" : "",
+                what_to_try(arguments.options, outcome.report));
         case StopReason::cancelled:
             return "interrupted";
         case StopReason::done:
@@ -107,10 +126,46 @@ std::string summary(const RemeshReport& report, double seconds, bool preserve) {
     return text + fmt::format(" in {:.3g} s", seconds);
 }
 
+bool is_mostly_rounding(const GrowthEstimate& growth) {
+    return growth.lower_bound_if_flat && *growth.lower_bound_if_flat < growth.lower_bound / 2;
+}
+
+std::string describe(const GrowthEstimate& growth) {
+    std::string text =
+        fmt::format("{} edges must be split, which is likely to add {} vertices or more to {}",
+                    with_commas(growth.lower_bound), with_commas(growth.likely_splits), with_commas(growth.vertices));
+    if (is_mostly_rounding(growth)) {
+        text += fmt::format("; --flat-tolerance stored: {} edges (the others are flat but for rounding)",
+                            with_commas(*growth.lower_bound_if_flat));
+    }
+    if (growth.sharp_edges < growth.lower_bound / 2)
+        text += fmt::format("; --mode feature: {} edges", with_commas(growth.sharp_edges));
+    return text + "; --max-vertices N sets a bound";
+}
+
+/// Tells early that the mesh is about to grow a lot, or needlessly.
+std::function<void(const GrowthEstimate&)> growth_teller(Outcome& outcome, Console& console) {
+    return [&outcome, &console](const GrowthEstimate& growth) {
+        // Other attempts to keep the surface repeat it.
+        if (outcome.growth) return;
+        outcome.growth = growth;
+        const bool much = growth.likely_splits > growth.vertices || growth.likely_splits > 1'000'000;
+        if (much || is_mostly_rounding(growth)) console.note(describe(growth));
+    };
+}
+
 void tell_people(const RemeshArguments& arguments, const Outcome& outcome, Console& console) {
     console.say(comparison_table({"before", "after"}, {outcome.before, outcome.after}));
     console.say("\n" + summary(outcome.report, outcome.watch.seconds()["total"].get<double>(),
                                arguments.options.mode == RemeshMode::preserve));
+    if (outcome.growth && is_mostly_rounding(*outcome.growth) && outcome.report.flat_tolerance == 0)
+        console.say(
+            fmt::format("all but {} of the {} edges that had to be split are flat but for rounding: "
+                        "--flat-tolerance stored lets them flip",
+                        with_commas(*outcome.growth->lower_bound_if_flat), with_commas(outcome.growth->lower_bound)));
+    if (outcome.report.max_deviation > 0)
+        console.say(fmt::format("flat edges flipped (tolerance {:.3g}): the surface moved by no more than {:.3g}",
+                                outcome.report.flat_tolerance, outcome.report.max_deviation));
     if (outcome.rounded_by > 0)
         console.say(
             fmt::format("input rounded to floats first: no vertex moved further than {:.3g}", outcome.rounded_by));
@@ -169,6 +224,7 @@ int run_remesh(RemeshArguments& arguments, Console& console) {
     outcome.before = measure(mesh, console.context());
     outcome.watch.lap("measure");
     if (arguments.keep_partial) console.finish_early();
+    arguments.options.on_growth = growth_teller(outcome, console);
     outcome.report = make_delaunay(mesh, arguments.options, console.context());
     if (outcome.report.witness) {
         const HalfedgeId h = Mesh::halfedge(*outcome.report.witness);

@@ -28,6 +28,8 @@ SplitChooser::SplitChooser(const MarkedMesh& marked, std::span<const EdgeId> bad
 
 std::uint32_t SplitChooser::edge_between(VertexId a, VertexId b) {
     const MarkedMesh& marked = model_.layout().marked();
+    // Points within a facet may lie between others that are not there yet.
+    if (std::max(a, b).index() >= marked.mesh().vertex_count()) return SplitModel::none;
     HalfedgeId h = marked.mesh().find_halfedge(a, b);
     if (!h.valid()) h = marked.mesh().find_halfedge(b, a);
     return h.valid() && !marked.is_planar(h) ? model_.edge_of(h) : SplitModel::none;

@@ -1,6 +1,8 @@
 #include "delaunay/marked_mesh.hpp"
 
-#include <utility>
+#include "exact/inline.hpp"
+
+#include <algorithm>
 
 namespace delmesh {
 
@@ -24,6 +26,7 @@ MarkedMesh::MarkedMesh(Mesh& copy, const MarkedMesh& other)
       facets_(other.facets_),
       splits_(other.splits_),
       input_vertices_(other.input_vertices_),
+      flat_(other.flat_),
       merged_(other.merged_) {}
 
 void MarkedMesh::take(MarkedMesh&& other) {
@@ -32,14 +35,43 @@ void MarkedMesh::take(MarkedMesh&& other) {
     facets_ = std::move(other.facets_);
     splits_ = std::move(other.splits_);
     input_vertices_ = other.input_vertices_;
+    flat_ = std::move(other.flat_);
     merged_ = std::move(other.merged_);
     hubs_.clear();
+}
+
+Sign side_along(int axis, const Vec3& a, const Vec3& b, const Vec3& c) {
+    const auto flat = [axis](const Vec3& p) { return Vec3{p[(axis + 1) % 3], p[(axis + 2) % 3], 0}; };
+    const Vec3 above = flat(a);
+    // Any height above will do; one of the triangle's own size is the easiest to compute with.
+    const double height = std::max({std::fabs(b.x - a.x), std::fabs(b.y - a.y), std::fabs(b.z - a.z)});
+    return exact::orientation_inline(above, flat(b), flat(c), {above.x, above.y, height});
+}
+
+bool MarkedMesh::keeps_unfolded_in(std::uint32_t plane, HalfedgeId h) const {
+    if (plane == 0) return true;
+    const HalfedgeId t = mesh_.twin(h);
+    const Vec3& u = mesh_.point(mesh_.apex(h));
+    const Vec3& v = mesh_.point(mesh_.apex(t));
+    const auto& [axis, side, thickness, flipped] = flat_.planes[plane - 1];
+    return side_along(axis, u, v, mesh_.point(mesh_.target(h))) == side &&
+           side_along(axis, v, u, mesh_.point(mesh_.origin(h))) == side;
+}
+
+double MarkedMesh::flattened() const {
+    double most = 0;
+    for (const FlatFacets::Plane& plane : flat_.planes)
+        if (plane.flipped) most = std::max(most, plane.thickness);
+    return most;
 }
 
 HalfedgeId MarkedMesh::flip_planar(HalfedgeId h) {
     const HalfedgeId t = mesh_.twin(h);
     hubs_.part(mesh_.origin(h), mesh_.target(h));
     hubs_.join(mesh_.apex(h), mesh_.apex(t));
+    if (!flat_.plane_of.empty())
+        if (const std::uint32_t plane = flat_.plane_of[facets_[Mesh::face(h).index()].index()]; plane != 0)
+            flat_.planes[plane - 1].flipped = true;
     const HalfedgeId h_prev = Mesh::prev(h);
     const HalfedgeId t_prev = Mesh::prev(t);
     marks_[h.index()] = std::exchange(marks_[t_prev.index()], Mark::planar);

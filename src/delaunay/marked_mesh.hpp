@@ -5,11 +5,13 @@
 
 #include "delaunay/hub_index.hpp"
 #include "delmesh/delaunay/provenance.hpp"
+#include "delmesh/exact/sign.hpp"
 #include "delmesh/mesh/edits.hpp"
 #include "delmesh/mesh/mesh.hpp"
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace delmesh {
@@ -18,6 +20,23 @@ enum class Mark : std::uint8_t {
     planar,    ///< lies inside a facet: may be flipped, the surface stays
     physical,  ///< a crease or the boundary, or a part of one: may only be split
 };
+
+/// Facets that are plane only within a tolerance: flips there keep every face looking the same way along an axis, so
+/// that the facet never folds.
+struct FlatFacets {
+    struct Plane {
+        int axis = 2;
+        Sign side = Sign::positive;
+        double thickness = 0;  ///< along the axis, in the frame
+        bool flipped = false;  ///< has anything been flipped there?
+    };
+    std::vector<Plane> planes;
+    /// For each input face one more than the index of its plane, or 0; empty where all facets are exactly plane.
+    std::vector<std::uint32_t> plane_of;
+};
+
+/// The side to which the triangle abc looks along an axis. Exact.
+[[nodiscard]] Sign side_along(int axis, const Vec3& a, const Vec3& b, const Vec3& c);
 
 class MarkedMesh {
 public:
@@ -40,6 +59,15 @@ public:
 
     /// True if the edge of h may be flipped (see can_flip) and the new edge has a length. Cost: O(1), in effect.
     [[nodiscard]] bool is_flippable(HalfedgeId h);
+    /// Tells which facets are only nearly plane.
+    void set_flat_facets(FlatFacets flat) { flat_ = std::move(flat); }
+    /// Does the flip of a planar edge keep its facet from folding? Always true in exactly plane facets.
+    [[nodiscard]] bool keeps_unfolded(HalfedgeId h) const {
+        return flat_.plane_of.empty() || keeps_unfolded_in(flat_.plane_of[facets_[Mesh::face(h).index()].index()], h);
+    }
+    /// The largest thickness of a flat facet in which something was flipped.
+    [[nodiscard]] double flattened() const;
+
     /// Flips a planar edge; moves half-edges as `flip` in edits.hpp does. Returns the new edge.
     HalfedgeId flip_planar(HalfedgeId h);
     /// Splits an edge at `where`, which is `point` in space; moves half-edges as `split_edge` does.
@@ -60,6 +88,7 @@ public:
     [[nodiscard]] Provenance take_provenance();
 
 private:
+    [[nodiscard]] bool keeps_unfolded_in(std::uint32_t plane, HalfedgeId h) const;
     void copy_facet(HalfedgeId h);
     void mark_physical(HalfedgeId h);
 
@@ -69,6 +98,7 @@ private:
     std::vector<SplitPoint> splits_;
     std::size_t input_vertices_;
     HubIndex hubs_;
+    FlatFacets flat_;
     /// Who went, and into whom, since the last `compact_all`.
     std::vector<std::array<VertexId, 2>> merged_;
 };

@@ -58,7 +58,7 @@ private:
             const HalfedgeId h = suspects_.back();
             suspects_.pop_back();
             if (!is_non_delaunay(mesh_, h)) continue;
-            if (marked_.is_planar(h) && marked_.is_flippable(h)) {
+            if (marked_.is_planar(h) && marked_.is_flippable(h) && marked_.keeps_unfolded(h)) {
                 flip_edge(h);
             } else {
                 splits_.push_back(h);
@@ -88,13 +88,9 @@ private:
     void treat(HalfedgeId h) {
         if (++treated_ % 1024 == 0) take_breath(h);
         if (splitter_.stopped() || !is_non_delaunay(mesh_, h)) return;
-        if (!marked_.is_planar(h)) {
-            splitter_.split_at_shell(h);
-        } else if (marked_.is_flippable(h)) {
-            flip_edge(h);
-        } else {
-            splitter_.halve(h);
-        }
+        if (marked_.is_planar(h) && !marked_.is_flippable(h)) return splitter_.halve(h);
+        if (marked_.is_planar(h) && marked_.keeps_unfolded(h)) return flip_edge(h);
+        splitter_.split_at_shell(h);
     }
 
     void take_breath(HalfedgeId h) {

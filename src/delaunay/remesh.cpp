@@ -3,10 +3,10 @@
 #include "delaunay/classify.hpp"
 #include "delaunay/clean.hpp"
 #include "delaunay/features.hpp"
-#include "delaunay/fewest.hpp"
 #include "delaunay/flip.hpp"
 #include "delaunay/marked_mesh.hpp"
 #include "delaunay/non_delaunay.hpp"
+#include "delaunay/preserve.hpp"
 #include "delaunay/refine.hpp"
 #include "delmesh/base/error.hpp"
 #include "delmesh/mesh/rounding.hpp"
@@ -27,6 +27,11 @@ void check_options(const Mesh& mesh, const RemeshOptions& options) {
         throw Error(
             ErrorCode::bad_argument,
             fmt::format("the feature angle must lie between 0 and 180 degrees, not at {}", options.feature_angle_deg));
+    const FlatTolerance& flat = options.flat_tolerance_rel;
+    if (flat.rule == FlatRule::given && !(flat.number >= 0 && flat.number <= 0.01))
+        throw Error(
+            ErrorCode::bad_argument,
+            fmt::format("the flat tolerance must lie between 0 and 0.01 of the diagonal, not at {}", flat.number));
     for (const auto& [a, b] : options.feature_edges) {
         if (a.index() < mesh.vertex_count() && b.index() < mesh.vertex_count() && mesh.are_joined(a, b)) continue;
         throw Error(
@@ -80,27 +85,15 @@ std::span<const std::string_view> choices(SplitPlacement) {
     return names;
 }
 
+std::span<const std::string_view> choices(FlatRule) {
+    static constexpr std::string_view names[] = {"auto", "stored", "given"};
+    return names;
+}
+
 namespace {
 
 /// Rounds of removing what rounding has flattened and flipping again.
 constexpr int most_cleanings = 50;
-
-/// Algorithm 1 on a mesh without zero-area faces.
-void preserve_surface(Mesh& mesh, const RemeshOptions& options, const Context* context, RemeshReport& report) {
-    std::vector<Mark> marks = mark_edges(mesh, context);
-    std::vector<FaceId> facets = find_facets(mesh, marks);
-    std::vector<FaceId> input_facets = facets;
-    MarkedMesh marked(mesh, std::move(marks), std::move(facets));
-    RefineStart start = flip_planar_edges(marked, options, context, report);
-    if (options.placement == SplitPlacement::fewest && !start.bad.empty()) {
-        preserve_with_fewest(marked, options, context, report, start);
-    } else {
-        marked.reserve_splits(6 * start.bad.size());
-        refine_and_clean(marked, options, context, report, std::move(start.queue));
-    }
-    report.provenance = marked.take_provenance();
-    report.provenance.facet_of_input_face = std::move(input_facets);
-}
 
 /// Algorithm 2 and section 6: flips, then Algorithm 1 for what is left, with all vertices of that moment as input.
 void flip_surface(Mesh& mesh, const RemeshOptions& options, const Context* context, RemeshReport& report) {
@@ -154,7 +147,7 @@ RemeshReport make_delaunay(Mesh& mesh, const RemeshOptions& options, const Conte
     RemeshReport report;
     report.flips = remove_caps(mesh, context);
     if (effective.mode == RemeshMode::preserve) {
-        preserve_surface(mesh, effective, context, report);
+        preserve(mesh, effective, context, report);
     } else {
         flip_surface(mesh, effective, context, report);
     }

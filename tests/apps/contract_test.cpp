@@ -121,6 +121,26 @@ TEST_F(Contract, RemeshTellsEverythingAboutTheRun) {
     EXPECT_EQ(quiet.out + quiet.err, "");
 }
 
+TEST_F(Contract, FlatToleranceIsARuleOrANumberAndItsEffectIsReported) {
+    ASSERT_EQ(delmesh("sample inclined-grid a.ply --faces 500").exit_code, 0);
+    const nlohmann::json exact = delmesh("remesh a.ply b.ply --json").json();
+    EXPECT_EQ(exact["options"]["flat_tolerance_rel"], "auto");
+    EXPECT_EQ(exact["max_deviation"], 0);
+    EXPECT_GT(exact["splits"], 10);
+    EXPECT_EQ(exact["growth"]["lower_bound"], exact["lower_bound"]);
+    EXPECT_EQ(exact["growth"]["lower_bound_if_flat"], 0);
+    const std::string as_it_was = bytes("b.ply");
+    delmesh("remesh a.ply b.ply --flat-tolerance 0");
+    EXPECT_EQ(bytes("b.ply"), as_it_was);
+    const nlohmann::json flat = delmesh("remesh a.ply b.ply --json --flat-tolerance stored").json();
+    EXPECT_EQ(flat["splits"], 0);
+    EXPECT_GT(flat["max_deviation"], 0);
+    EXPECT_LE(flat["max_deviation"], flat["flat_tolerance"]);
+    EXPECT_EQ(delmesh("remesh a.ply b.ply --json --flat-tolerance 1e-7").json()["options"]["flat_tolerance_rel"], 1e-7);
+    for (const char* wrong : {"often", "-1", "0.5", "nan"})
+        EXPECT_EQ(delmesh(std::string("remesh a.ply b.ply --flat-tolerance ") + wrong).exit_code, 2) << wrong;
+}
+
 TEST_F(Contract, InputsThatCanNotBeUsedAre3) {
     write("fan.off", fan);
     write("cut.ply", "ply\nformat ascii 1.0\nelement vertex 3\n");

@@ -3,8 +3,8 @@
 //
 // Each struct has `template <class Self, class Visitor> static void describe(Self& self, Visitor&& visit)`, which calls
 // `visit(self.field, OptionInfo{...})` for each field, in the order of the documentation. Fields are bool, integers,
-// double or enumerations; for an enumeration E, `choices(E{})` gives the names of its values 0, 1, ... The default is
-// what a default-constructed struct holds.
+// double, enumerations or `NumberByRule`; for an enumeration E, `choices(E{})` gives the names of its values 0, 1, ...
+// The default is what a default-constructed struct holds.
 
 #include <limits>
 #include <string_view>
@@ -17,6 +17,13 @@ struct OptionInfo {
     double lowest = -std::numeric_limits<double>::infinity();
     double highest = std::numeric_limits<double>::infinity();
     std::string_view help = {};  ///< one line
+};
+
+/// A number, or a rule to find it. `Rule` is an enumeration whose last value says that the number is given.
+template <class Rule>
+struct NumberByRule {
+    Rule rule{};
+    double number = 0;
 };
 
 }  // namespace delmesh

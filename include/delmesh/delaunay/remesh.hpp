@@ -7,6 +7,7 @@
 #include "delmesh/mesh/mesh.hpp"
 
 #include <array>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -40,6 +41,28 @@ enum class SplitPlacement {
     shells,  ///< at concentric shells: Algorithm 1 as published
 };
 
+/// Mode preserve: when do edges count as planar that are not so exactly? docs/flat.md.
+enum class FlatRule {
+    automatic,  ///< never, unless the run would stop short and mostly because of such edges: then as `stored`
+    stored,     ///< where the rounding of the coordinates to the precision they were stored with can explain it
+    given,      ///< within the number that is given
+};
+using FlatTolerance = NumberByRule<FlatRule>;
+
+/// What is known early in mode preserve, once planar edges have been flipped.
+struct GrowthEstimate {
+    std::size_t vertices = 0;  ///< of the input
+    /// Edges that must be split: no method that keeps the surface adds fewer vertices.
+    std::size_t lower_bound = 0;
+    /// Those of them that are sharper than RemeshOptions::feature_angle_deg, or at the boundary: only these would mode
+    /// feature have to split.
+    std::size_t sharp_edges = 0;
+    /// What the placement is likely to add; CAD needles can need ten times more.
+    std::size_t likely_splits = 0;
+    /// The lower bound with FlatRule::stored, where rounding was found to matter.
+    std::optional<std::size_t> lower_bound_if_flat;
+};
+
 /// Why a run ended. Whatever the reason, the mesh is valid and every vertex and face of it is accounted for.
 enum class StopReason {
     done,          ///< every edge is Delaunay
@@ -53,6 +76,7 @@ enum class StopReason {
 [[nodiscard]] std::span<const std::string_view> choices(FlipOrder);
 [[nodiscard]] std::span<const std::string_view> choices(FlipFinish);
 [[nodiscard]] std::span<const std::string_view> choices(SplitPlacement);
+[[nodiscard]] std::span<const std::string_view> choices(FlatRule);
 
 struct RemeshOptions {
     RemeshMode mode = RemeshMode::preserve;
@@ -74,10 +98,16 @@ struct RemeshOptions {
     /// The unit of the concentric shells: split vertices lie at the distance 2^k * shell_unit_abs from an end of
     /// their edge. In units of the coordinates, above 0. The paper's delta.
     double shell_unit_abs = 1;
+    /// Mode preserve: edges flatter than this count as planar and may flip; the surface then moves by no more than
+    /// this, a fraction of the bounding-box diagonal. {FlatRule::given, 0}: only edges that are planar exactly.
+    /// docs/flat.md.
+    FlatTolerance flat_tolerance_rel;
     /// The largest number of vertices that the output may have; 0: no limit.
     std::size_t max_vertices = 0;
     /// What new vertices are rounded to when they are made. With float32 the input must consist of floats.
     Precision precision = Precision::float64;
+    /// Mode preserve: called when the growth can be estimated, on the calling thread; once for each attempt.
+    std::function<void(const GrowthEstimate&)> on_growth;
 
     /// See option.hpp. `precision` is left out: it follows from the file that is written.
     template <class Self, class Visitor>
@@ -104,6 +134,13 @@ struct RemeshOptions {
                          .unit = "abs",
                          .lowest = std::numeric_limits<double>::denorm_min(),
                          .help = "split vertices lie at 2^k times this from an end of their edge"});
+        visit(
+            self.flat_tolerance_rel,
+            OptionInfo{.name = "flat-tolerance",
+                       .unit = "rel",
+                       .lowest = 0,
+                       .highest = 0.01,
+                       .help = "mode preserve: edges flatter than this count as planar; the surface stays within it"});
         visit(
             self.max_vertices,
             OptionInfo{
@@ -134,6 +171,10 @@ struct RemeshReport {
     std::size_t lower_bound = 0;
     /// Placement fewest: what placement shells would have split; 0 where that was not found out.
     std::size_t splits_by_shells = 0;
+    /// Mode preserve: the flat tolerance that was used, and an upper bound of how far any point of either surface is
+    /// from the other one, beyond the rounding of split points; both in units of the coordinates.
+    double flat_tolerance = 0;
+    double max_deviation = 0;
     /// The edge that stopped the run, where one did.
     std::optional<EdgeId> witness;
     Provenance provenance;
