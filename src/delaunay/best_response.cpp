@@ -20,6 +20,8 @@ constexpr double align_share = 0.5;
 constexpr int max_newton = 60;
 constexpr std::size_t max_chain = 64;
 constexpr std::size_t many_sides = 8;
+/// Among more points a search by the model is faster.
+constexpr std::size_t longest_list = 24;
 /// What a response costs beside the evaluations that are counted one by one.
 constexpr std::size_t response_work = 100;
 
@@ -51,6 +53,7 @@ void BestResponse::look(std::uint32_t e) {
         view.points.push_back(side.apex);
         for (std::uint32_t s = facet.first_side; s < facet.first_side + 3; ++s)
             if (s != view.side) look_at(side, layout.side(s), view.points);
+        view.listed = view.points.size() <= longest_list;
     }
 }
 
@@ -357,7 +360,7 @@ void BestResponse::weigh_candidates() {
     candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(), out), candidates_.end());
     const auto same = [](const Candidate& a, const Candidate& b) { return a.at == b.at; };
     candidates_.erase(std::unique(candidates_.begin(), candidates_.end(), same), candidates_.end());
-    model_.count_work(candidates_.size());
+    model_.count_work(candidates_.size() * (4 + blocked_.size() + candidates_.size() / 4) / 4);
     for (Candidate& candidate : candidates_) candidate.weight = soft_weight(candidate.at);
 }
 

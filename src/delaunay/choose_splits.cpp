@@ -54,17 +54,18 @@ void SplitChooser::set_baseline(std::span<const SplitPoint> splits) {
     search_.set_other(baseline_);
 }
 
+double SplitChooser::full_work() const {
+    const double full = std::max(work_per_edge * static_cast<double>(bad_.size()), least_work);
+    return std::ldexp(full, options_.effort - default_effort);
+}
+
 void SplitChooser::search(const Context* context) {
-    search_.construct(bad_);
-    if (options_.effort > 0) {
-        const double full = std::ldexp(std::max(work_per_edge * static_cast<double>(bad_.size()), least_work),
-                                       options_.effort - default_effort);
-        wait_for_open_edges(full, context);
-        if (!is_cancelled(context)) search_.close_open();
-        search_.improve(static_cast<std::uint64_t>(full), context);
-    } else {
-        search_.close_open();
-    }
+    const double full = full_work();
+    search_.construct(bad_, static_cast<std::uint64_t>(full));
+    if (options_.effort > 0) wait_for_open_edges(full, context);
+    if (is_cancelled(context)) return;
+    search_.close_open(static_cast<std::uint64_t>(full));
+    if (options_.effort > 0) search_.improve(static_cast<std::uint64_t>(full), context);
     if (is_cancelled(context) || baseline_.empty()) return;
     delmesh::take_better_regions(model_, search_.open(), placed_points(model_), baseline_);
 }
@@ -97,7 +98,7 @@ bool SplitChooser::mend(std::span<const std::array<VertexId, 2>> edges) {
         const std::uint32_t e = edge_between(a, b);
         if (e != SplitModel::none) ids.push_back(e);
     }
-    return search_.mend(ids);
+    return search_.mend(ids, static_cast<std::uint64_t>(0.1 * full_work()));
 }
 
 bool SplitChooser::take_better_regions(std::span<const SplitPoint> truth) {

@@ -5,6 +5,7 @@
 #include "delaunay/splitter.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -31,14 +32,23 @@ public:
         return {std::move(splits_), std::move(bad)};
     }
 
-    /// What is left to be split afterwards.
+    /// Middle points of edges first, then those of their halves, and so on: put in one by one from an end, many points
+    /// would make fans that take a number of flips quadratic in it. Returns what is left to be split afterwards.
     std::vector<HalfedgeId> carry_out(std::span<const SplitPoint> plan) {
         marked_.reserve_splits(plan.size() + plan.size() / 8);
-        for (std::size_t begin = 0, end = 0; begin < plan.size() && !splitter_.stopped(); begin = end) {
-            while (end < plan.size() && plan[end].a == plan[begin].a && plan[end].b == plan[begin].b) ++end;
-            splitter_.split_edge_at(plan.subspan(begin, end - begin));
+        std::vector<VertexId> made(plan.size());
+        std::size_t longest = 0;
+        for (std::size_t begin = 0, end = 0; begin < plan.size(); begin = end) {
+            end = end_of_edge(plan, begin);
+            longest = std::max(longest, end - begin);
         }
-        flip_suspects();
+        for (std::size_t step = std::bit_floor(longest); step > 0; step /= 2) {
+            for (std::size_t begin = 0, end = 0; begin < plan.size() && !splitter_.stopped(); begin = end) {
+                end = end_of_edge(plan, begin);
+                split_edge(plan.subspan(begin, end - begin), {made.data() + begin, end - begin}, step);
+            }
+            flip_suspects();
+        }
         std::erase_if(splits_, [&](HalfedgeId h) { return !is_non_delaunay(mesh_, h); });
         return std::move(splits_);
     }
@@ -52,6 +62,25 @@ public:
     }
 
 private:
+    static std::size_t end_of_edge(std::span<const SplitPoint> plan, std::size_t begin) {
+        std::size_t end = begin;
+        while (end < plan.size() && plan[end].a == plan[begin].a && plan[end].b == plan[begin].b) ++end;
+        return end;
+    }
+
+    /// Puts in every point of an edge whose number, from 1, is an odd multiple of `step`.
+    void split_edge(std::span<const SplitPoint> points, std::span<VertexId> made, std::size_t step) {
+        VertexId before = points.front().a;
+        for (std::size_t i = 0; i < points.size() && !splitter_.stopped(); ++i) {
+            if (made[i].valid()) before = made[i];
+            if ((i + 1) % (2 * step) != step) continue;
+            const auto after = std::find_if(made.begin() + static_cast<std::ptrdiff_t>(i) + 1, made.end(),
+                                            [](VertexId v) { return v.valid(); });
+            made[i] = splitter_.split_between(before, after == made.end() ? points.front().b : *after, points[i]);
+            if (made[i].valid()) before = made[i];
+        }
+    }
+
     /// Flips until only edges that can not be flipped are left; these go to the queue of splits.
     void flip_suspects() {
         while (!suspects_.empty()) {

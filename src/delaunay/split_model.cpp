@@ -31,6 +31,16 @@ double largest_angle_on_line(double a, double b, Point2 p, Point2 d) {
     return (std::sqrt(std::max(discriminant, 0.0)) - p.y) / d.y;
 }
 
+/// Those of the sorted points p + u d that may see [a,b] under the largest angle: the angle rises to its maximum along
+/// the line and falls behind it.
+std::span<const double> worth_a_look(std::span<const double> points, double a, double b, Point2 p, Point2 d) {
+    if (points.size() <= few) return points;
+    const double top = largest_angle_on_line(a, b, p, d);
+    const auto above = static_cast<std::size_t>(std::lower_bound(points.begin(), points.end(), top) - points.begin());
+    const std::size_t first = above == 0 ? 0 : above - 1;
+    return points.subspan(first, std::min<std::size_t>(2, points.size() - first));
+}
+
 }  // namespace
 
 // --- storage ---
@@ -221,7 +231,7 @@ void SplitModel::touch_side(std::uint32_t e, const Side& from, std::uint32_t s, 
     const Point2 d = side.turn(from.along);
     if (p.y <= flat && p.y + d.y <= flat) return;
     const State& state = states_[other];
-    work_ += state.count;
+    work_ += state.count * (1 + std::min(points.size(), few));
     double start = 0;
     for (std::uint32_t i = 0; i < state.count; ++i) {
         const Part& part = pool_[state.first + i];
@@ -231,7 +241,7 @@ void SplitModel::touch_side(std::uint32_t e, const Side& from, std::uint32_t s, 
         std::uint32_t culprit = part.culprit[k];
         const bool lost = removed && culprit == e;
         if (!lost) {
-            for (const double u : points) {
+            for (const double u : worth_a_look(points, a, part.end, p, d)) {
                 const Point2 q = p + u * d;
                 if (!(q.y > 0)) continue;
                 const double candidate = cot_of(a, part.end, q);

@@ -101,7 +101,7 @@ bool SplitRepair::run(std::size_t max_points, std::size_t steps, bool last_first
             model_.drop_suspect(i);
             continue;
         }
-        if (++step > steps) return false;
+        if (++step > steps || is_exhausted()) return false;
         if (10 * model_.point_count() + suspect_price * model_.suspect_count() > 10 * max_points) return false;
         model_.add_weight(e, weight_step);
         const auto part = static_cast<std::size_t>(bad);

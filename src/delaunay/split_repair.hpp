@@ -20,6 +20,10 @@ public:
     /// `max_points`. `last_first`: newest suspects first, which draws threads of points across strips; else random.
     bool run(std::size_t max_points, std::size_t steps, bool last_first);
 
+    /// From now on `run` also gives up when the model's work has come this far.
+    void set_work_limit(std::uint64_t limit) { work_limit_ = limit; }
+    [[nodiscard]] bool is_exhausted() const { return model_.work() >= work_limit_; }
+
     /// The index of the part that ends at or after `at`.
     [[nodiscard]] std::size_t part_at(std::uint32_t e, double at) const;
 
@@ -33,6 +37,7 @@ private:
     SplitModel& model_;
     Random& random_;
     BestResponse response_;
+    std::uint64_t work_limit_ = ~std::uint64_t{0};
 };
 
 }  // namespace delmesh

@@ -45,7 +45,8 @@ bool SplitSearch::attempt(std::uint32_t e, std::size_t steps, bool clear_first) 
     return false;
 }
 
-void SplitSearch::construct(const std::vector<std::uint32_t>& bad_edges) {
+void SplitSearch::construct(const std::vector<std::uint32_t>& bad_edges, std::uint64_t work) {
+    limit_work(work);
     open_ = bad_edges;
     for (const std::uint32_t e : open_) model_.give_up(e, true);
     for (int round = 0; round < first_rounds && !open_.empty(); ++round) {
@@ -129,9 +130,10 @@ bool SplitSearch::borrow(std::uint32_t e, std::size_t size) {
     return false;
 }
 
-void SplitSearch::close_open() {
+void SplitSearch::close_open(std::uint64_t work) {
     if (other_.empty()) return;
-    for (std::size_t size = 8; !open_.empty(); size *= 2) {
+    limit_work(work);
+    for (std::size_t size = 8; !open_.empty() && !repair_.is_exhausted(); size *= 2) {
         std::size_t left = 0;
         std::size_t largest = 0;
         for (const std::uint32_t e : open_) {
@@ -140,7 +142,7 @@ void SplitSearch::close_open() {
                 continue;
             }
             bool closed = false;
-            for (int i = 0; i < borrow_tries && !closed; ++i) closed = borrow(e, size);
+            for (int i = 0; i < borrow_tries && !closed && !repair_.is_exhausted(); ++i) closed = borrow(e, size);
             if (closed) continue;
             largest = std::max(largest, edges_.size());
             open_[left++] = e;
@@ -150,7 +152,8 @@ void SplitSearch::close_open() {
     }
 }
 
-bool SplitSearch::mend(const std::vector<std::uint32_t>& edges) {
+bool SplitSearch::mend(const std::vector<std::uint32_t>& edges, std::uint64_t work) {
+    limit_work(work);
     bool changed = false;
     for (const std::uint32_t e : edges) {
         model_.prepare(e);
@@ -159,7 +162,8 @@ bool SplitSearch::mend(const std::vector<std::uint32_t>& edges) {
     for (const std::uint32_t e : edges) {
         if (model_.is_given_up(e) || model_.first_bad(e) < 0) continue;
         bool closed = false;
-        for (int i = 0; i < mend_tries && !closed; ++i) closed = attempt(e, first_steps << (i / 2), i > 0);
+        for (int i = 0; i < mend_tries && !closed && !repair_.is_exhausted(); ++i)
+            closed = attempt(e, first_steps << (i / 2), i > 0);
         if (!closed) open_.push_back(e);
         changed = changed || closed;
     }
@@ -179,6 +183,7 @@ void SplitSearch::find_spare_edges() {
 }
 
 void SplitSearch::improve(std::uint64_t work, const Context* context) {
+    limit_work(work);
     const std::uint64_t start = model_.work();
     const std::uint64_t stretch = std::max<std::uint64_t>(work_per_point * model_.point_count(), least_stretch);
     std::uint64_t check = start + stretch;

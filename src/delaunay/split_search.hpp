@@ -20,16 +20,16 @@ public:
 
     /// Tries to make these edges Delaunay, in several rounds of short attempts. What is left stays `open`: such edges
     /// are not Delaunay, and nothing tries to mend them but further attempts.
-    void construct(const std::vector<std::uint32_t>& bad_edges);
+    void construct(const std::vector<std::uint32_t>& bad_edges, std::uint64_t work);
 
     /// A solution to borrow from, sorted; must outlive the search.
     void set_other(std::span<const PlacedPoint> other) { other_ = other; }
 
     /// Takes the other solution's points around each open edge, around as few edges as possible, and repairs the rim.
-    void close_open();
+    void close_open(std::uint64_t work);
 
     /// Lets these edges keep a distance from ties, and repairs them. False if nothing has changed.
-    bool mend(const std::vector<std::uint32_t>& edges);
+    bool mend(const std::vector<std::uint32_t>& edges, std::uint64_t work);
 
     /// Takes points away, and tries to close open edges, until that much work is done or little has come of the last
     /// stretch of it. The number of points never grows but to close an edge.
@@ -53,6 +53,7 @@ private:
         double work = 1;
     };
 
+    void limit_work(std::uint64_t more) { repair_.set_work_limit(model_.work() + more); }
     bool attempt(std::uint32_t e, std::size_t steps, bool clear_first);
     bool borrow(std::uint32_t e, std::size_t size);
     void gather_ball(std::uint32_t e, std::size_t size);

@@ -47,20 +47,15 @@ void Splitter::halve(HalfedgeId h) {
     split(h, {a, b, 0.5}, point);
 }
 
-void Splitter::split_edge_at(std::span<const SplitPoint> points) {
-    const VertexId a = points.front().a;
-    const VertexId b = points.front().b;
-    HalfedgeId h = mesh_.find_halfedge(a, b);
-    const bool forward = h.valid();
-    if (!forward) h = mesh_.find_halfedge(b, a);
-    for (std::size_t i = 0; i < points.size() && h.valid() && !stopped_; ++i) {
-        const SplitPoint& where = points[forward ? i : points.size() - 1 - i];
-        const Vec3 point = point_between(mesh_.point(a), mesh_.point(b), where.t, options_.precision);
-        if (!can_split(mesh_, h) || !lies_inside(h, point)) continue;
-        const HalfedgeId rest(mesh_.halfedge_count());
-        split(h, where, point);
-        h = rest;
-    }
+VertexId Splitter::split_between(VertexId u, VertexId v, const SplitPoint& where) {
+    HalfedgeId h = mesh_.find_halfedge(u, v);
+    if (!h.valid()) h = mesh_.find_halfedge(v, u);
+    if (!h.valid() || !can_split(mesh_, h)) return {};
+    const Vec3 point = point_between(mesh_.point(where.a), mesh_.point(where.b), where.t, options_.precision);
+    if (!lies_inside(h, point)) return {};
+    const std::size_t before = mesh_.vertex_count();
+    split(h, where, point);
+    return mesh_.vertex_count() > before ? VertexId(before) : VertexId();
 }
 
 /// Two faces over the same three vertices: a vertex on their edge would be joined to their common apex twice. A vertex

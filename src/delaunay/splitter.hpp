@@ -24,9 +24,9 @@ public:
     void split_at_shell(HalfedgeId h);
     /// Splits in the middle: for a planar edge whose opposing edge exists elsewhere, as where a surface touches itself.
     void halve(HalfedgeId h);
-    /// Splits an input edge at all of these points, which are ordered by parameter. Leaves out what rounding does not
-    /// allow.
-    void split_edge_at(std::span<const SplitPoint> points);
+    /// Splits the edge between u and v, a part of the input edge of `where`. Returns the new vertex; none where
+    /// rounding does not allow it.
+    VertexId split_between(VertexId u, VertexId v, const SplitPoint& where);
     void stop(StopReason reason, HalfedgeId at);
     [[nodiscard]] bool stopped() const { return stopped_; }
 
