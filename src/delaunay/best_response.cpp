@@ -403,6 +403,42 @@ void BestResponse::plain_chain() {
     }
 }
 
+/// In units of the edge, squared.
+double BestResponse::distance2_to_others(double t) const {
+    const double to_ends = std::min(t - low_, high_ - t);
+    double least = to_ends * to_ends;
+    for (const View& view : views_)
+        for (const Point2& p : view.points) least = std::min(least, (p.x - t) * (p.x - t) + p.y * p.y);
+    return least;
+}
+
+double BestResponse::spread(std::uint32_t e, std::size_t i) {
+    constexpr int places = 7;
+    const double now = model_.parts(e)[i].end;
+    low_ = model_.part_start(e, i);
+    high_ = model_.parts(e)[i + 1].end;
+    model_.count_work(response_work);
+    look(e);
+    const double up = reach_up(low_);
+    const double down = reach_down(high_);
+    block(e);
+    double best = now;
+    double farthest = 1.01 * distance2_to_others(now);
+    for (const Cell& cell : cells_) {
+        const double from = std::max(cell.begin, down);
+        const double to = std::min(cell.end, up);
+        if (cell.weight > 0 || !(from < to)) continue;
+        for (int k = 1; k <= places; ++k) {
+            const double t = from + (to - from) * k / (places + 1);
+            const double distance2 = distance2_to_others(t);
+            if (distance2 <= farthest) continue;
+            farthest = distance2;
+            best = t;
+        }
+    }
+    return best;
+}
+
 double BestResponse::halve(std::uint32_t e, std::size_t first) {
     low_ = model_.part_start(e, first);
     high_ = model_.parts(e)[first].end;

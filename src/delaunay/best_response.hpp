@@ -23,6 +23,10 @@ public:
     /// One point for the part `first`, even if no point makes both halves Delaunay.
     [[nodiscard]] double halve(std::uint32_t e, std::size_t first);
 
+    /// Where point i of edge e lies farthest from all other points and corners that are known to see it, while no part
+    /// becomes bad; where it is now, if there is nothing better.
+    [[nodiscard]] double spread(std::uint32_t e, std::size_t i);
+
     static constexpr int point_cost = 10;
 
 private:
@@ -69,6 +73,7 @@ private:
     [[nodiscard]] double pick(double low, double high);
     [[nodiscard]] bool place_one(double low, double high);
     void place_many();
+    [[nodiscard]] double distance2_to_others(double t) const;
     void add_candidates();
     void weigh_candidates();
     [[nodiscard]] bool cheapest_chain();

@@ -66,7 +66,9 @@ void SplitChooser::search(const Context* context) {
     if (is_cancelled(context)) return;
     search_.close_open(static_cast<std::uint64_t>(full));
     if (options_.effort > 0) search_.improve(static_cast<std::uint64_t>(full), context);
-    if (is_cancelled(context) || baseline_.empty()) return;
+    if (is_cancelled(context)) return;
+    search_.spread(static_cast<std::uint64_t>(0.2 * full));
+    if (baseline_.empty()) return;
     delmesh::take_better_regions(model_, search_.open(), placed_points(model_), baseline_);
 }
 

@@ -92,6 +92,19 @@ bool SplitRepair::resolve_culprit(std::uint32_t e, std::size_t part) {
     return true;
 }
 
+void SplitRepair::spread(std::uint32_t e, std::size_t i) {
+    model_.prepare(e);
+    const double at = response_.spread(e, i);
+    if (at == model_.parts(e)[i].end) return;
+    model_.begin();
+    model_.cut(e, i, i + 1, {&at, 1});
+    if (run(model_.point_count(), 0, true)) {
+        model_.commit();
+    } else {
+        model_.rollback();
+    }
+}
+
 bool SplitRepair::run(std::size_t max_points, std::size_t steps, bool last_first) {
     for (std::size_t step = 0; model_.suspect_count() > 0;) {
         const std::size_t i = last_first ? model_.suspect_count() - 1 : random_.below(model_.suspect_count());

@@ -20,6 +20,9 @@ public:
     /// `max_points`. `last_first`: newest suspects first, which draws threads of points across strips; else random.
     bool run(std::size_t max_points, std::size_t steps, bool last_first);
 
+    /// Moves point i of an edge away from others, as far as that makes nothing bad.
+    void spread(std::uint32_t e, std::size_t i);
+
     /// From now on `run` also gives up when the model's work has come this far.
     void set_work_limit(std::uint64_t limit) { work_limit_ = limit; }
     [[nodiscard]] bool is_exhausted() const { return model_.work() >= work_limit_; }

@@ -9,6 +9,7 @@ namespace {
 constexpr int first_rounds = 6;
 constexpr std::size_t first_steps = 50;
 constexpr int mend_tries = 6;
+constexpr int spread_passes = 3;
 constexpr int borrow_tries = 3;
 constexpr double open_share = 0.3;
 constexpr double any_move_share = 0.4;
@@ -18,7 +19,10 @@ constexpr std::size_t very_many_sides = 64;
 constexpr std::size_t most_taken = 400;
 /// The search ends when it takes away less than 1/400 of the points in a stretch of work.
 constexpr std::uint64_t work_per_point = 10'000;
-constexpr std::uint64_t least_stretch = 4'000'000;
+constexpr std::uint64_t least_stretch = 2'000'000;
+/// Small meshes get more time for each point, as it hardly counts.
+constexpr std::uint64_t small_stretch = 25'000'000;
+constexpr std::uint64_t small_work_per_point = 60'000;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -185,7 +189,9 @@ void SplitSearch::find_spare_edges() {
 void SplitSearch::improve(std::uint64_t work, const Context* context) {
     limit_work(work);
     const std::uint64_t start = model_.work();
-    const std::uint64_t stretch = std::max<std::uint64_t>(work_per_point * model_.point_count(), least_stretch);
+    const std::uint64_t points_now = model_.point_count();
+    const std::uint64_t stretch = std::max(
+        {work_per_point * points_now, std::min(small_work_per_point * points_now, small_stretch), least_stretch});
     std::uint64_t check = start + stretch;
     std::size_t points_then = model_.point_count() + open_.size();
     std::size_t since = 0;
@@ -216,6 +222,14 @@ void SplitSearch::improve(std::uint64_t work, const Context* context) {
         find_spare_edges();
         since = 0;
     }
+}
+
+void SplitSearch::spread(std::uint64_t work) {
+    limit_work(work);
+    for (int pass = 0; pass < spread_passes; ++pass)
+        for (std::uint32_t e = 0; e < model_.edge_count(); ++e)
+            for (std::size_t i = 0; i < model_.point_count(e) && !repair_.is_exhausted(); ++i)
+                if (model_.is_movable(e)) repair_.spread(e, i);
 }
 
 SplitSearch::Move& SplitSearch::choose_move() {

@@ -38,6 +38,9 @@ public:
     /// Edges that are not Delaunay.
     [[nodiscard]] const std::vector<std::uint32_t>& open() const { return open_; }
 
+    /// Moves points away from each other while all stays Delaunay.
+    void spread(std::uint64_t work);
+
 private:
     struct Target {
         std::uint32_t edge = 0;
