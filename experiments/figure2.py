@@ -24,7 +24,8 @@ def snapshot(source, splits):
     vertices = command.delmesh("stats", source)["mesh"]["vertices"]
     origin = command.OUT / "meshes" / "figure2.json"
     limit = [] if splits is None else ["--max-vertices", vertices + splits]
-    path, report = command.remesh(source, "figure2", "--placement", "shells", *limit, "--keep-partial", "--provenance", origin, allowed=(0, 5))
+    path, report = command.remesh(source, "figure2", "--placement", "shells", *limit, "--keep-partial", "--provenance",
+                                  origin, allowed=(0, 5))
     facets = np.array(json.loads(origin.read_text(encoding="utf-8"))["facet_of_face"])
     return *mesh_file.read_mesh(path), facets, report
 

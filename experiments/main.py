@@ -14,12 +14,13 @@ EXPERIMENTS = {
     "figure11": "vertices added by mode feature, against its threshold",
     "figure12": "levels of detail, and their error beside plain quadric simplification",
     "orders": "orders of the flips: worst, fifo, lifo",
+    "placement": "vertices added by mode preserve: the paper's shells and the search for few points",
     "pictures": "the picture of the README",
 }
 
 # What the docs show; of built-in samples only.
 PUBLISHED = ["before-after.png", "figure2.png", "figure10-plate.png", "figure10-noisy-surface.png",
-             "figure11.png", "figure12-noisy-surface-curve.png"]
+             "figure11.png", "placement.png", "figure12-noisy-surface-curve.png"]
 
 
 def publish():
