@@ -15,7 +15,7 @@ struct Tuning {
     double slack = 1.5;       ///< an edge is collapsed at once if it costs at most this times the next key
     double samples = 60000;   ///< so many samples of the original are followed ...
     double density = 12;      ///< ... and so many more for each vertex of the finest level, as far as there are
-    double reach = 5;         ///< no sample gets farther away than this many times the root of the mean square
+    double reach = 4.5;       ///< no sample gets farther away than this many times the root of the mean square
     double guard = 3;         ///< ... once fewer than this many times the vertices asked for are left
     bool paper = false;       ///< the paper's placement, with quadrics that add up (else those of the current faces)
     bool constrained = true;  ///< false: for comparison only; the result is not Delaunay
