@@ -8,6 +8,19 @@
 
 namespace delmesh::app {
 
+bool is_about_mesh(ErrorCode code) {
+    switch (code) {
+        case ErrorCode::bad_argument:
+        case ErrorCode::file_not_readable:
+        case ErrorCode::file_not_writable:
+        case ErrorCode::file_format:
+        case ErrorCode::unsupported_format:
+            return false;
+        default:
+            return true;
+    }
+}
+
 void InputOptions::bind(CLI::App& command) {
     command.add_flag("--repair", repair, "Make a manifold of the input first, see `delmesh repair`");
     bind_options(command, repair_options);
@@ -24,11 +37,7 @@ PolygonSoup load_soup(const std::string& path, const InputOptions& options, cons
 }
 
 Mesh build_mesh(const std::string& path, PolygonSoup soup) {
-    try {
-        return Mesh(std::move(soup));
-    } catch (const Error& error) {
-        throw Error(error.code(), fmt::format("{}: {}", path, error.what()), error.elements(), error.count());
-    }
+    return naming(path, [&] { return Mesh(std::move(soup)); });
 }
 
 Json to_json(const RepairReport& report) {

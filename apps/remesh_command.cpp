@@ -225,7 +225,7 @@ int run_remesh(RemeshArguments& arguments, Console& console) {
     outcome.watch.lap("measure");
     if (arguments.keep_partial) console.finish_early();
     arguments.options.on_growth = growth_teller(outcome, console);
-    outcome.report = make_delaunay(mesh, arguments.options, console.context());
+    outcome.report = naming(arguments.input, [&] { return make_delaunay(mesh, arguments.options, console.context()); });
     if (outcome.report.witness) {
         const HalfedgeId h = Mesh::halfedge(*outcome.report.witness);
         outcome.witness = {mesh.origin(h).index(), mesh.target(h).index()};

@@ -163,8 +163,10 @@ int run_simplify(SimplifyArguments& arguments, Console& console) {
         outcome.levels.push_back(std::move(level));
     };
     ProgressiveMesh record;
-    outcome.report = arguments.lod.empty() ? simplify(mesh, arguments.options, console.context())
-                                           : simplify(mesh, arguments.options, record, console.context());
+    outcome.report = naming(arguments.input, [&] {
+        return arguments.lod.empty() ? simplify(mesh, arguments.options, console.context())
+                                     : simplify(mesh, arguments.options, record, console.context());
+    });
     outcome.watch.lap("simplify");
     if (outcome.report.stop == SimplifyStop::cancelled) return console.interrupted();
     if (!arguments.lod.empty()) write_lod(arguments.lod, record);

@@ -130,8 +130,12 @@ std::uint64_t orient(Complex& complex, EdgeGroups& groups, Partners& partners, L
 /// Exchanges partners at edges that would join the same two vertices twice, and numbers the vertices so that partners
 /// share their ends and nothing else does.
 void separate_fans(Complex& complex, const EdgeGroups& groups, Partners& partners, Log& log);
-/// Turns the outermost closed components outwards, and with them what lies inside. Neither `partners` nor any groups
-/// hold afterwards.
-void turn_outward(Complex& complex, const Partners& partners, Log& log);
+/// Drops the back of each triangle that is joined with its own back alone and has an obtuse angle. True if there were
+/// any; neither `partners` nor any groups hold then.
+bool open_pillows(Complex& complex, const Partners& partners, Log& log);
+/// Turns the outermost closed components outwards, and with them what lies inside. Where all of them face inwards and
+/// no face was turned before, that is how the mesh is meant, and it stays, unless `always` is set. Neither `partners`
+/// nor any groups hold afterwards.
+void turn_outward(Complex& complex, const Partners& partners, bool always, Log& log);
 
 }  // namespace delmesh::repairing

@@ -1,5 +1,5 @@
-// Closed components face outwards. The outermost ones decide: what lies inside a component is turned with it, so that a
-// cavity stays a cavity.
+// Closed components face outwards, or all the other way. The outermost ones decide: what lies inside a component is
+// turned with it, so that a cavity stays a cavity.
 
 #include "delmesh/exact/predicates.hpp"
 #include "repair/complex.hpp"
@@ -17,6 +17,7 @@ struct Component {
     std::vector<Index> faces;
     Index extreme = none;  ///< the vertex with the largest coordinates, in the order x, y, z
     bool inward = false;   ///< it encloses a negative volume
+    bool outward = false;  ///< it encloses a positive volume
     Index parent = none;   ///< the component right around it
     Index outermost = none;
 };
@@ -28,10 +29,11 @@ public:
           partners_(partners),
           log_(log) {}
 
-    void run() {
+    void run(bool always) {
         find_closed_components();
         if (std::none_of(closed_.begin(), closed_.end(), [](const Component& c) { return c.inward; })) return;
         find_parents();
+        if (!always && is_consistent()) return;
         for (const Component& c : closed_) {
             if (!closed_[c.outermost].inward) continue;
             if (c.parent == none) log_.add(Defect::inside_out, complex_.origin[c.faces.front()]);
@@ -40,6 +42,13 @@ public:
     }
 
 private:
+    /// True if no face had to be turned to agree with its neighbours and no outermost component faces outwards.
+    [[nodiscard]] bool is_consistent() const {
+        return std::none_of(complex_.turned.begin(), complex_.turned.end(), [](char t) { return t != 0; }) &&
+               std::none_of(closed_.begin(), closed_.end(),
+                            [](const Component& c) { return c.parent == none && c.outward; });
+    }
+
     void find_closed_components() {
         std::vector<char> seen(complex_.face_count(), 0);
         std::vector<Index> faces;
@@ -87,7 +96,9 @@ private:
             volume += term;
             magnitude += std::fabs(term);
         }
-        c.inward = volume < -0x1p-50 * static_cast<double>(faces.size() + 16) * magnitude;
+        const double noise = 0x1p-50 * static_cast<double>(faces.size() + 16) * magnitude;
+        c.inward = volume < -noise;
+        c.outward = volume > noise;
         return c;
     }
 
@@ -134,8 +145,8 @@ private:
 
 }  // namespace
 
-void turn_outward(Complex& complex, const Partners& partners, Log& log) {
-    OutwardTurner(complex, partners, log).run();
+void turn_outward(Complex& complex, const Partners& partners, bool always, Log& log) {
+    OutwardTurner(complex, partners, log).run(always);
 }
 
 }  // namespace delmesh::repairing

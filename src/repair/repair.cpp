@@ -16,7 +16,7 @@ namespace {
 /// Joins what meets, cuts what can not be joined, and turns what faces the wrong way. Usually once: what is left of a
 /// surface that can not be oriented, or of faces at one place, may look different afterwards, and then it takes until
 /// nothing changes any more. Each round drops faces or shortens the cuts, or is the last.
-void make_manifold(Complex& complex, Log& log, const Context* context) {
+void make_manifold(Complex& complex, const RepairOptions& options, Log& log, const Context* context) {
     std::uint64_t cut_before = std::numeric_limits<std::uint64_t>::max();
     Log later;
     for (bool is_first = true;; is_first = false) {
@@ -26,7 +26,11 @@ void make_manifold(Complex& complex, Log& log, const Context* context) {
         Partners partners = pair_halfedges(complex, groups, is_first ? log : later, context);
         const std::uint64_t cut = orient(complex, groups, partners, log, context);
         separate_fans(complex, groups, partners, log);
-        turn_outward(complex, partners, log);
+        if (open_pillows(complex, partners, log)) {
+            cut_before = std::numeric_limits<std::uint64_t>::max();
+            continue;
+        }
+        turn_outward(complex, partners, options.outward, log);
         report_progress(context, "repair", 0.9);
         if ((cut == 0 && !doubled.kept) || cut >= cut_before) return;
         cut_before = cut;
@@ -125,7 +129,7 @@ RepairReport run(const PolygonSoup& soup, const RepairOptions& options, const Co
     report_progress(context, "repair", 0.2);
     remove_degenerate(complex, log, context);
     report_progress(context, "repair", 0.4);
-    make_manifold(complex, log, context);
+    make_manifold(complex, options, log, context);
     Outcome outcome(soup, complex, log);
 
     RepairReport report;

@@ -151,6 +151,18 @@ TEST(Manifold, DoubleCoveredTriangleIsAMesh) {
     EXPECT_EQ(apart.soup.corners, soup.corners);
 }
 
+/// With an obtuse angle it is one that can not become Delaunay.
+TEST(Manifold, DoubleCoveredObtuseTriangleLosesItsBack) {
+    const PolygonSoup soup = triangles({{0, 0, 0}, {4, 0, 0}, {1, 1, 0}}, {{0, 1, 2}, {0, 2, 1}});
+    const Repaired out = repair_and_check(soup);
+    EXPECT_EQ(out.soup.face_count(), 1U);
+    EXPECT_EQ(out.report.count(Defect::duplicate_face), 1U);
+    // On a wall, where it is joined with nothing but its back, and where a rim takes it up.
+    PolygonSoup wall = triangles({{0, 0, 0}, {4, 0, 0}, {1, 1, 0}, {2, -3, 0}, {2, -3, 5}},
+                                 {{0, 1, 2}, {0, 2, 1}, {1, 0, 3}, {0, 1, 4}});
+    EXPECT_GE(repair_and_check(wall).soup.face_count(), 3U);
+}
+
 TEST(Manifold, RepeatedFacesAreDropped) {
     // Of the same orientation, in another order, and with vertices of their own.
     PolygonSoup soup = make_cube({0, 0, 0});

@@ -30,7 +30,7 @@ TEST(Orient, EachComponentByItself) {
 }
 
 TEST(Orient, ClosedComponentsFaceOutwards) {
-    for (const std::size_t turned : {0U, 1U, 5U, 7U, 12U}) {
+    for (const std::size_t turned : {0U, 1U, 5U, 7U, 11U}) {
         SCOPED_TRACE(turned);
         PolygonSoup soup = make_cube({-5, 2, 1});
         for (std::size_t f = 0; f < turned; ++f) turn_face(soup, f);
@@ -39,6 +39,27 @@ TEST(Orient, ClosedComponentsFaceOutwards) {
         EXPECT_LE(out.report.count(Defect::inconsistent_face), 6U);
         EXPECT_EQ(out.report.count(Defect::inside_out) > 0, turned > 6);
     }
+}
+
+/// Nothing is wrong with a mesh that faces inwards throughout: it stays, unless it is asked for.
+TEST(Orient, WhatAgreesThatItFacesInwardsStays) {
+    PolygonSoup soup = make_cube({0, 0, 0});
+    append(soup, make_cube({5, 0, 0}));
+    turn_all_faces(soup);
+    EXPECT_FALSE(repair_and_check(soup).report.changed);
+    EXPECT_NEAR(examine(repair_and_check(soup, {.outward = true}).soup).volume6, 12, 1e-12);
+    // One that disagrees is enough to doubt them all.
+    append(soup, make_cube({0, 5, 0}));
+    const Repaired out = repair_and_check(soup);
+    EXPECT_EQ(out.report.count(Defect::inside_out), 2U);
+    EXPECT_NEAR(examine(out.soup).volume6, 18, 1e-12);
+    // So is a face that had to be turned, anywhere.
+    PolygonSoup other = make_cube({0, 0, 0});
+    turn_all_faces(other);
+    PolygonSoup open = make_sample("saddle", 60);
+    turn_face(open, 3);
+    append(other, open);
+    EXPECT_EQ(repair_and_check(other).report.count(Defect::inside_out), 1U);
 }
 
 TEST(Orient, OpenSurfacesAreNotTurned) {
@@ -63,7 +84,8 @@ TEST(Orient, CavitiesStayCavities) {
     EXPECT_FALSE(repair_and_check(make_nest()).report.changed);
     PolygonSoup inside_out = make_nest();
     turn_all_faces(inside_out);
-    const Repaired out = repair_and_check(inside_out);
+    EXPECT_FALSE(repair_and_check(inside_out).report.changed);
+    const Repaired out = repair_and_check(inside_out, {.outward = true});
     EXPECT_EQ(out.report.count(Defect::inside_out), 2U);
     EXPECT_NEAR(examine(out.soup).volume6, examine(make_nest()).volume6, 1e-9);
 }
@@ -82,7 +104,7 @@ TEST(Orient, ManyNestedShells) {
     PolygonSoup soup;
     for (int i = 0; i < 300; ++i) append(soup, make_cube({1.0 * i, 1.0 * i, 1.0 * i}, 2000 - 2 * i));
     turn_all_faces(soup);
-    const Repaired out = repair_and_check(soup);
+    const Repaired out = repair_and_check(soup, {.outward = true});
     // Only the outermost says so; the others are turned with it.
     EXPECT_EQ(out.report.count(Defect::inside_out), 1U);
     for (std::size_t c = 0; c < 300; ++c) {

@@ -182,13 +182,13 @@ TEST(Repair, ReportReadsWell) {
 TEST(Repair, DescribesItsOptions) {
     RepairOptions options;
     int described = 0;
-    RepairOptions::describe(options, [&](double& field, const OptionInfo& info) {
+    RepairOptions::describe(options, [&](auto& field, const OptionInfo& info) {
         EXPECT_LE(info.lowest, field);
         EXPECT_LE(field, info.highest);
         EXPECT_FALSE(info.name.empty() || info.help.empty());
         ++described;
     });
-    EXPECT_EQ(described, 1);
+    EXPECT_EQ(described, 2);
 }
 
 /// Scaling by a power of two changes coordinates only.

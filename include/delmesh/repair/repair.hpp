@@ -17,6 +17,9 @@ struct RepairOptions {
     /// Vertices that are no farther apart than this fraction of the bounding-box diagonal become one. 0: only vertices
     /// at exactly the same place do. In [0, 1].
     double weld_tolerance_rel = 0;
+    /// Turns closed components outwards even where all of them face inwards and agree in themselves, so that the
+    /// orientation could be meant. (Where they disagree, they are always turned.)
+    bool outward = false;
 
     /// See option.hpp.
     template <class Self, class Visitor>
@@ -27,6 +30,8 @@ struct RepairOptions {
                          .lowest = 0,
                          .highest = 1,
                          .help = "vertices no farther apart than this become one; 0: only at exactly the same place"});
+        visit(self.outward, OptionInfo{.name = "outward",
+                                       .help = "turn closed components outwards even where all of them face inwards"});
     }
 };
 
@@ -46,7 +51,7 @@ enum class Defect : unsigned char {
     inconsistent_face,    ///< faces that were turned round to agree with their component
     non_orientable,       ///< non-orientable components, each named by a face: cut open
     cut_edge,             ///< the edges at which they were cut
-    inside_out,           ///< closed components that faced inwards, each named by a face: turned round
+    inside_out,           ///< outermost closed components that faced inwards, each named by a face: turned round
     non_manifold_vertex,  ///< vertices with more than one fan of faces: each fan got a vertex of its own
     isolated_vertex,      ///< vertices without a face: dropped
     stray_line,           ///< line elements whose ends are gone, or that repeat another one: dropped
@@ -97,9 +102,10 @@ struct RepairReport {
 ///
 /// Guarantees: the points of the surface stay where they are (unless a tolerance is given, and then no vertex moves
 /// farther than that); no boundary appears at an edge with an even number of faces, except where a surface that can not
-/// be oriented is cut; vertices and faces keep their order, and copies of vertices follow at the end; a clean soup
-/// stays as it is bit for bit, polygons too; a second repair changes nothing. If anything was wrong the result consists
-/// of triangles. Deterministic. Does not mend self-intersections, gaps, or a vertex that touches the inside of an edge.
+/// be oriented is cut, and at an obtuse triangle that only its own back was joined with, which goes; vertices and faces
+/// keep their order, and copies of vertices follow at the end; a clean soup stays as it is bit for bit, polygons too; a
+/// second repair changes nothing. If anything was wrong the result consists of triangles. Deterministic. Does not mend
+/// self-intersections, gaps, or a vertex that touches the inside of an edge.
 ///
 /// Throws `Error`: bad_argument (an option out of range, or `starts` that do not fit `corners`), too_large. On any
 /// exception the soup is what it was. Cost: O(n log n) time, O(n) memory.
