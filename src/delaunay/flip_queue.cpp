@@ -51,8 +51,10 @@ Urgency urgency(const Mesh& mesh, HalfedgeId h) {
     if (!(cosine.squared_scale > 1e-200 && cosine.squared_scale < 1e200))
         cosine = cosine_of_sum({tamed(u.a), tamed(u.b)}, {tamed(v.a), tamed(v.b)});
     // It grows with the sum between pi and 2 pi.
-    const double cosine_itself = std::clamp(cosine.value / std::sqrt(cosine.squared_scale), -1.0, 1.0);
-    return static_cast<Urgency>((cosine_itself + 1) / 2 * most_urgent);
+    const double cosine_itself = cosine.value / std::sqrt(cosine.squared_scale);
+    // Sides that under- or overflow give no number; such an edge waits longest.
+    if (!(cosine_itself > -1)) return 0;
+    return static_cast<Urgency>((std::min(cosine_itself, 1.0) + 1) / 2 * most_urgent);
 }
 
 HalfedgeId FlipQueue::upcoming(std::size_t place) const {

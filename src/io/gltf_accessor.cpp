@@ -100,13 +100,13 @@ GltfPositions::GltfPositions(GltfFile& file, std::uint64_t number) {
     count_ = file.number(json, "count");
     type_ = file.number(json, "componentType");
     component_size_ = type_ == type_unsigned_int ? 0 : size_of_component(type_);
-    const Json* const normalized = GltfFile::find(json, "normalized");
-    normalized_ = normalized != nullptr && *normalized == true;
+    const Json* const normalized = json.find("normalized");
+    normalized_ = normalized != nullptr && normalized->is_true();
     if (file.text(json, "type") != "VEC3" || component_size_ == 0)
         file.fail(fmt::format(
             "expected three floats or short integers as glTF position, found accessor {} of another type", number));
-    const Json* const sparse = GltfFile::find(json, "sparse");
-    if (GltfFile::find(json, "bufferView") != nullptr) {
+    const Json* const sparse = json.find("sparse");
+    if (json.find("bufferView") != nullptr) {
         records_ = find_records(file, json, count_, 3 * component_size_);
     } else if (sparse == nullptr) {
         file.fail(fmt::format("expected data of glTF accessor {}, found none (is the mesh compressed?)", number));
@@ -116,8 +116,8 @@ GltfPositions::GltfPositions(GltfFile& file, std::uint64_t number) {
 
 void GltfPositions::read_sparse(GltfFile& file, const Json& sparse) {
     const std::uint64_t count = file.number(sparse, "count");
-    const Json* const indices = GltfFile::find(sparse, "indices");
-    const Json* const values = GltfFile::find(sparse, "values");
+    const Json* const indices = sparse.find("indices");
+    const Json* const values = sparse.find("values");
     if (indices == nullptr || values == nullptr) file.fail("expected indices and values of a sparse glTF accessor");
     const std::uint64_t type = file.number(*indices, "componentType");
     if (!is_index_type(type)) file.fail("expected unsigned integers as glTF indices, found another type");
@@ -152,7 +152,7 @@ GltfIndices::GltfIndices(GltfFile& file, std::uint64_t number) {
     const Json& json = file.element("accessors", number);
     count_ = file.number(json, "count");
     type_ = file.number(json, "componentType");
-    if (file.text(json, "type") != "SCALAR" || !is_index_type(type_) || GltfFile::find(json, "sparse") != nullptr)
+    if (file.text(json, "type") != "SCALAR" || !is_index_type(type_) || json.find("sparse") != nullptr)
         file.fail(
             fmt::format("expected plain unsigned integers as glTF indices, found accessor {} of another kind", number));
     records_ = find_records(file, json, count_, size_of_component(type_));

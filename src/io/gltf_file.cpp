@@ -104,16 +104,16 @@ std::string_view GltfFile::open_container() {
 }
 
 void GltfFile::parse(std::string_view json) {
-    if (const auto error = parse_gltf_json(json, root_)) {
-        const std::size_t at = std::min(*error, json.size());
+    if (const auto fault = parse_gltf_json(json, root_)) {
+        if (fault->too_deep) fail(fmt::format("expected at most {} levels of glTF JSON, found more", deepest_json));
+        const std::size_t at = std::min(fault->position, json.size());
         fail(fmt::format("byte {}: expected glTF JSON, found {}", json_begin_ + at,
                          at < json.size() ? quote(json.substr(at, 20)) : "its end"));
     }
-    if (!root_.is_object()) fail(fmt::format("byte {}: expected a JSON object of glTF, found none", json_begin_));
 }
 
 void GltfFile::check_version() const {
-    const Json* const asset = find(root_, "asset");
+    const Json* const asset = root_.find("asset");
     const std::string_view version = asset == nullptr ? std::string_view() : text(*asset, "version");
     if (version.starts_with("2.")) return;
     fail(fmt::format("expected glTF of version 2, found {}",
@@ -123,7 +123,7 @@ void GltfFile::check_version() const {
 
 void GltfFile::refuse_extensions() const {
     for (const Json& extension : list(root_, "extensionsRequired")) {
-        const std::string name = extension.is_string() ? extension.get<std::string>() : std::string();
+        const std::string name = extension.text() == nullptr ? std::string() : *extension.text();
         if (is_harmless(name)) continue;
         fail(fmt::format("expected plain glTF, found that the extension {} is needed, which is not read: save the mesh "
                          "without it",
@@ -134,22 +134,16 @@ void GltfFile::refuse_extensions() const {
 
 // --- JSON ---
 
-const Json* GltfFile::find(const Json& object, const char* key) {
-    if (!object.is_object()) return nullptr;
-    const auto found = object.find(key);
-    return found == object.end() ? nullptr : &*found;
-}
-
-const Json& GltfFile::list(const Json& object, const char* key) const {
-    static const Json empty = Json::array();
-    const Json* const found = find(object, key);
+const Json::List& GltfFile::list(const Json& object, const char* key) const {
+    static const Json::List empty;
+    const Json* const found = object.find(key);
     if (found == nullptr) return empty;
-    if (!found->is_array()) fail(fmt::format("expected a glTF list {}, found another kind of value", quote(key)));
-    return *found;
+    if (found->list() == nullptr) fail(fmt::format("expected a glTF list {}, found another kind of value", quote(key)));
+    return *found->list();
 }
 
 const Json& GltfFile::element(const char* key, std::uint64_t number) const {
-    const Json& all = list(root_, key);
+    const Json::List& all = list(root_, key);
     if (number >= all.size())
         fail(fmt::format("expected a number below {} in the glTF list {}, found {}", all.size(), quote(key), number),
              ErrorCode::index_out_of_range);
@@ -158,17 +152,15 @@ const Json& GltfFile::element(const char* key, std::uint64_t number) const {
 
 std::uint64_t GltfFile::whole_number(const Json& value, const char* what) const {
     constexpr double largest = 0x1p53;
-    if (value.is_number_unsigned()) return value.get<std::uint64_t>();
-    if (value.is_number_float()) {  // some programs write 3.0
-        const double real = value.get<double>();
-        if (real >= 0 && real <= largest && real == std::floor(real)) return static_cast<std::uint64_t>(real);
-    }
+    if (const auto whole = value.whole()) return *whole;
+    const auto real = value.real();  // some programs write 3.0
+    if (real && *real >= 0 && *real <= largest && *real == std::floor(*real)) return static_cast<std::uint64_t>(*real);
     fail(fmt::format("expected a whole number as glTF {}, found {}", quote(what),
-                     value.is_number() ? value.dump() : "another kind of value"));
+                     real ? fmt::format("{}", *real) : std::string("another kind of value")));
 }
 
 std::optional<std::uint64_t> GltfFile::find_number(const Json& object, const char* key) const {
-    const Json* const found = find(object, key);
+    const Json* const found = object.find(key);
     if (found == nullptr) return std::nullopt;
     return whole_number(*found, key);
 }
@@ -180,18 +172,21 @@ std::uint64_t GltfFile::number(const Json& object, const char* key) const {
 }
 
 std::vector<double> GltfFile::reals(const Json& object, const char* key, std::size_t count) const {
-    const Json& values = list(object, key);
-    const bool fits = values.empty() || values.size() == count;
-    if (!fits || !std::ranges::all_of(values, [](const Json& value) { return value.is_number(); }))
+    const Json::List& values = list(object, key);
+    std::vector<double> result;
+    for (const Json& value : values)
+        if (const auto real = value.real(); real && result.size() < count) result.push_back(*real);
+    if (result.size() != values.size() || (!values.empty() && values.size() != count))
         fail(fmt::format("expected {} numbers as glTF {}, found others", count, quote(key)));
-    return values.get<std::vector<double>>();
+    return result;
 }
 
 std::string_view GltfFile::text(const Json& object, const char* key) const {
-    const Json* const found = find(object, key);
+    const Json* const found = object.find(key);
     if (found == nullptr) return {};
-    if (!found->is_string()) fail(fmt::format("expected text as glTF {}, found another kind of value", quote(key)));
-    return found->get_ref<const std::string&>();
+    if (found->text() == nullptr)
+        fail(fmt::format("expected text as glTF {}, found another kind of value", quote(key)));
+    return *found->text();
 }
 
 // --- buffers ---

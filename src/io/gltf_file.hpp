@@ -31,10 +31,8 @@ public:
 
     [[noreturn]] void fail(const std::string& what, ErrorCode code = ErrorCode::file_format) const;
 
-    /// A member of a JSON object; null if there is none.
-    [[nodiscard]] static const Json* find(const Json& object, const char* key);
     /// The list of that name; an empty one where there is none.
-    [[nodiscard]] const Json& list(const Json& object, const char* key) const;
+    [[nodiscard]] const Json::List& list(const Json& object, const char* key) const;
     /// Element `number` of the list `key` of the whole file.
     [[nodiscard]] const Json& element(const char* key, std::uint64_t number) const;
     [[nodiscard]] std::uint64_t whole_number(const Json& value, const char* what) const;

@@ -1,14 +1,99 @@
 #include "io/gltf_json.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <array>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace delmesh::io {
 
+// --- values ---
+
+Json::Json() = default;
+Json::Json(Json&&) noexcept = default;
+Json& Json::operator=(Json&&) noexcept = default;
+Json::~Json() = default;
+
+Json Json::of_bool(bool value) {
+    Json json;
+    json.value_ = value;
+    return json;
+}
+Json Json::of_whole(std::uint64_t value) {
+    Json json;
+    json.value_ = value;
+    return json;
+}
+Json Json::of_real(double value) {
+    Json json;
+    json.value_ = value;
+    return json;
+}
+Json Json::of_text(std::string value) {
+    Json json;
+    json.value_ = std::make_unique<std::string>(std::move(value));
+    return json;
+}
+Json Json::of_list() {
+    Json json;
+    json.value_ = std::make_unique<List>();
+    return json;
+}
+Json Json::of_members() {
+    Json json;
+    json.value_ = std::make_unique<Members>();
+    return json;
+}
+
+bool Json::is_true() const {
+    const bool* const value = std::get_if<bool>(&value_);
+    return value != nullptr && *value;
+}
+
+std::optional<std::uint64_t> Json::whole() const {
+    const auto* const value = std::get_if<std::uint64_t>(&value_);
+    return value == nullptr ? std::nullopt : std::optional(*value);
+}
+
+std::optional<double> Json::real() const {
+    if (const auto* const value = std::get_if<double>(&value_)) return *value;
+    if (const auto value = whole()) return static_cast<double>(*value);
+    return std::nullopt;
+}
+
+const std::string* Json::text() const {
+    const auto* const value = std::get_if<std::unique_ptr<std::string>>(&value_);
+    return value == nullptr ? nullptr : value->get();
+}
+
+const Json::List* Json::list() const {
+    const auto* const value = std::get_if<std::unique_ptr<List>>(&value_);
+    return value == nullptr ? nullptr : value->get();
+}
+
+Json::List* Json::list() {
+    auto* const value = std::get_if<std::unique_ptr<List>>(&value_);
+    return value == nullptr ? nullptr : value->get();
+}
+
+Json::Members* Json::members() {
+    auto* const value = std::get_if<std::unique_ptr<Members>>(&value_);
+    return value == nullptr ? nullptr : value->get();
+}
+
+const Json* Json::find(std::string_view name) const {
+    const auto* const value = std::get_if<std::unique_ptr<Members>>(&value_);
+    if (value == nullptr) return nullptr;
+    const auto found =
+        std::find_if((*value)->rbegin(), (*value)->rend(), [&](const auto& m) { return m.first == name; });
+    return found == (*value)->rend() ? nullptr : &found->second;
+}
+
+// --- text ---
+
 namespace {
+
+using Library = nlohmann::json;
 
 bool is_wanted(std::size_t depth, const std::string& key) {
     constexpr std::array wanted{"asset",  "scene",     "scenes",      "nodes",  "extensionsRequired",
@@ -17,46 +102,42 @@ bool is_wanted(std::size_t depth, const std::string& key) {
     return key != "extras" && key != "extensions";
 }
 
-/// Builds values as they come. (The library's own way of leaving some out takes time that grows with their square.)
-class Builder final : public nlohmann::json_sax<Json> {
+/// Builds values as the library's parser finds them.
+class Builder final : public nlohmann::json_sax<Library> {
 public:
     explicit Builder(Json& root) : root_(root) {}
 
-    bool null() override { return put(nullptr); }
-    bool boolean(bool value) override { return put(value); }
-    bool number_integer(number_integer_t value) override { return put(value); }
-    bool number_unsigned(number_unsigned_t value) override { return put(value); }
-    bool number_float(number_float_t value, const string_t&) override { return put(value); }
-    bool string(string_t& value) override { return put(std::move(value)); }
+    bool null() override { return put({}); }
+    bool boolean(bool value) override { return put(Json::of_bool(value)); }
+    bool number_integer(number_integer_t value) override { return put(Json::of_real(static_cast<double>(value))); }
+    bool number_unsigned(number_unsigned_t value) override { return put(Json::of_whole(value)); }
+    bool number_float(number_float_t value, const string_t&) override { return put(Json::of_real(value)); }
+    bool string(string_t& value) override { return put(Json::of_text(std::move(value))); }
     bool binary(binary_t&) override { return false; }
-    bool start_object(std::size_t) override { return open(Json::object()); }
-    bool start_array(std::size_t) override { return open(Json::array()); }
+    bool start_object(std::size_t) override { return open(Json::of_members()); }
+    bool start_array(std::size_t) override { return open(Json::of_list()); }
     bool end_object() override { return close(); }
     bool end_array() override { return close(); }
     bool key(string_t& name) override {
         if (left_out_ > 0) return true;
-        if (is_wanted(open_.size(), name)) {
-            slot_ = &(*open_.back())[name];
-        } else {
-            is_unwanted_ = true;
-        }
+        is_unwanted_ = !is_wanted(open_.size(), name);
+        if (!is_unwanted_) open_.back()->members()->emplace_back(std::move(name), Json());
         return true;
     }
     bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception&) override {
-        error_ = position > 0 ? position - 1 : 0;
+        fault_ = {position > 0 ? position - 1 : 0, false};
         return false;
     }
 
-    [[nodiscard]] const std::optional<std::size_t>& error() const { return error_; }
+    [[nodiscard]] const std::optional<JsonFault>& fault() const { return fault_; }
 
 private:
     /// Where the next value goes; null if it is left out.
     Json* take_slot() {
         if (left_out_ > 0 || std::exchange(is_unwanted_, false)) return nullptr;
         if (open_.empty()) return &root_;
-        if (open_.back()->is_object()) return slot_;
-        open_.back()->push_back(nullptr);
-        return &open_.back()->back();
+        if (Json::Members* const members = open_.back()->members()) return &members->back().second;
+        return &open_.back()->list()->emplace_back();
     }
     bool put(Json value) {
         if (Json* const slot = take_slot()) *slot = std::move(value);
@@ -66,11 +147,12 @@ private:
         Json* const slot = take_slot();
         if (slot == nullptr) {
             ++left_out_;
-        } else {
-            *slot = std::move(value);
-            open_.push_back(slot);
+            return true;
         }
-        return true;
+        *slot = std::move(value);
+        open_.push_back(slot);
+        if (open_.size() > deepest_json) fault_ = {0, true};
+        return !fault_;
     }
     bool close() {
         if (left_out_ > 0) {
@@ -83,18 +165,17 @@ private:
 
     Json& root_;
     std::vector<Json*> open_;  ///< what is being filled: only its last element can grow, so these addresses hold
-    Json* slot_ = nullptr;     ///< for the value of the last key
     bool is_unwanted_ = false;
     std::size_t left_out_ = 0;  ///< open objects and lists of what is left out
-    std::optional<std::size_t> error_;
+    std::optional<JsonFault> fault_;
 };
 
 }  // namespace
 
-std::optional<std::size_t> parse_gltf_json(std::string_view text, Json& root) {
+std::optional<JsonFault> parse_gltf_json(std::string_view text, Json& root) {
     Builder builder(root);
-    Json::sax_parse(text.begin(), text.end(), &builder);
-    return builder.error();
+    Library::sax_parse(text.begin(), text.end(), &builder);
+    return builder.fault();
 }
 
 }  // namespace delmesh::io

@@ -138,6 +138,11 @@ bool fits_float(PlyType type) {
     return type == PlyType::float32 || (is_integer(type) && size_of(type) <= 2);
 }
 
+std::string PlyElement::shown_name() const {
+    constexpr std::size_t longest = 40;
+    return printable(std::string_view(name).substr(0, longest));
+}
+
 std::size_t PlyElement::find(std::string_view property) const {
     return static_cast<std::size_t>(std::ranges::find(properties, property, &PlyProperty::name) - properties.begin());
 }

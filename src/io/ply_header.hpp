@@ -32,6 +32,8 @@ struct PlyElement {
     std::uint64_t count = 0;
     std::vector<PlyProperty> properties;
 
+    /// The name as it stands in messages: printable, and not too long.
+    [[nodiscard]] std::string shown_name() const;
     /// The index of a property, or `properties.size()`.
     [[nodiscard]] std::size_t find(std::string_view property) const;
     /// The least number of bytes that one record takes in a binary file, or of characters in a text file.

@@ -85,7 +85,7 @@ private:
         visited_[number] = true;
         const Transform transform = above * transform_of(node);
         if (const auto mesh = file_.find_number(node, "mesh")) add_mesh(file_.element("meshes", *mesh), transform);
-        const Json& children = file_.list(node, "children");
+        const Json::List& children = file_.list(node, "children");
         for (std::size_t i = children.size(); i-- > 0;)
             pending_.push_back({file_.whole_number(children[i], "children"), transform});
     }
@@ -118,7 +118,7 @@ private:
 
     void add_primitive(const Json& primitive, PointIndex& index) {
         const Primitive kind = primitive_of(file_.find_number(primitive, "mode").value_or(4));
-        const Json* const attributes = GltfFile::find(primitive, "attributes");
+        const Json* const attributes = primitive.find("attributes");
         if (kind == Primitive::other || attributes == nullptr) return;
         const auto position = file_.find_number(*attributes, "POSITION");
         if (!position) return;

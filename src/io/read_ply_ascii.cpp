@@ -89,7 +89,7 @@ private:
     void begin_record(const PlyElement& element, std::uint64_t index) {
         do {
             if (!scanner_.next_line()) {
-                scanner_.fail(fmt::format("expected {} {} of {}, found the end of the file", printable(element.name),
+                scanner_.fail(fmt::format("expected {} {} of {}, found the end of the file", element.shown_name(),
                                           index, element.count));
             }
         } while (scanner_.line_is_done());

@@ -176,7 +176,7 @@ private:
         if (vertex < header_.points) return;
         input_.fail_at(input_.offset(),
                        fmt::format("expected a vertex index below {} in {} {}, found {}", header_.points,
-                                   printable(element.name), record, static_cast<std::int64_t>(vertex)),
+                                   element.shown_name(), record, static_cast<std::int64_t>(vertex)),
                        ErrorCode::index_out_of_range);
     }
 
@@ -219,7 +219,7 @@ private:
             return static_cast<std::int64_t>(load<T, order>(input_.begin()));
         });
         if (count < 0) {
-            input_.fail(fmt::format("expected the length of a list in {} {} of {}, found {}", printable(element.name),
+            input_.fail(fmt::format("expected the length of a list in {} {} of {}, found {}", element.shown_name(),
                                     record, element.count, count));
         }
         input_.skip(size_of(property.count_type));
@@ -231,7 +231,7 @@ private:
         const auto left = input_.remaining();
         if (!left || count <= *left / size) return;
         input_.fail(fmt::format("expected {} values in a list of {} {} of {}, found {} before the end of the file",
-                                count, printable(element.name), record, element.count, *left / size));
+                                count, element.shown_name(), record, element.count, *left / size));
     }
 
     void skip_property(const PlyElement& element, std::uint64_t record, const PlyProperty& property) {
@@ -246,7 +246,7 @@ private:
 
     [[noreturn]] void fail_truncated(const PlyElement& element, std::uint64_t record) {
         input_.fail_at(input_.offset() + input_.available(),
-                       fmt::format("expected {} {} of {}, found the end of the file", printable(element.name), record,
+                       fmt::format("expected {} {} of {}, found the end of the file", element.shown_name(), record,
                                    element.count));
     }
 

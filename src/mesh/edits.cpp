@@ -78,7 +78,9 @@ VertexId split_edge(Mesh& mesh, HalfedgeId h, const Vec3& point) {
     const VertexId q = mesh.target(h);
     const VertexId u = mesh.apex(h);
     const VertexId s(mesh.vertex_count());
-    edit.points.push_back(point);
+    const Vec3 own_point = point;  // which may stand in the mesh
+    edit.make_room();
+    edit.points.push_back(own_point);
     edit.out.emplace_back();
 
     const HalfedgeId sq = add_face(edit, s, q, u);

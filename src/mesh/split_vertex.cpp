@@ -70,7 +70,9 @@ VertexId split_vertex(Mesh& mesh, VertexId v, VertexId left, VertexId right, con
 
     MeshEditor edit(mesh);
     const VertexId n(edit.points.size());
-    edit.points.push_back(point);
+    const Vec3 own_point = point;  // which may stand in the mesh
+    edit.make_room();
+    edit.points.push_back(own_point);
     edit.out.emplace_back();
     for (const HalfedgeId h : part) edit.origin[h.index()] = n;
 
