@@ -146,7 +146,8 @@ TEST_F(Interruption, CtrlCLeavesACleanTerminal) {
     ::close(terminal);
     EXPECT_EQ(exit_code_of(child), 130);
     EXPECT_TRUE(pressed);
-    EXPECT_TRUE(seen.ends_with("\r\033[K")) << testing::PrintToString(seen);
+    // The last that was drawn is wiped; the key may have come when a message had already wiped it.
+    EXPECT_NE(seen.find("\r\033[K", seen.rfind(" %")), seen.npos) << testing::PrintToString(seen);
     EXPECT_EQ(files(), Names{"a.obj"});
 }
 
