@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <pty.h>
 #include <sys/wait.h>
+#include <termios.h>
 #include <unistd.h>
 #include <cerrno>
 #include <chrono>
@@ -134,6 +135,11 @@ TEST_F(Interruption, CtrlCLeavesACleanTerminal) {
     int terminal = -1;
     const pid_t child = ::forkpty(&terminal, nullptr, nullptr, nullptr);
     if (child == 0) run({"remesh", "a.obj", "out.ply", "--max-vertices", "100000000"});
+    // Else the terminal throws away what is written right after the key.
+    termios settings{};
+    ASSERT_EQ(::tcgetattr(terminal, &settings), 0);
+    settings.c_lflag |= NOFLSH;
+    ASSERT_EQ(::tcsetattr(terminal, TCSANOW, &settings), 0);
     std::string seen;
     bool pressed = false;
     char buffer[4096];
