@@ -137,6 +137,18 @@ void check_arguments(const SimplifyArguments& arguments) {
                                 arguments.output.path));
 }
 
+/// Remeshing that multiplies the vertices undoes what the user came for, and takes long.
+std::size_t sensible_limit(std::size_t vertices) {
+    return std::max(5 * vertices, vertices + 1'000'000);
+}
+
+std::string why_nothing_was_done(const SimplifyReport& report) {
+    if (!report.remesh || report.remesh->stop != StopReason::max_vertices) return std::string(name(report.stop));
+    return fmt::format(
+        "not Delaunay, and still not with {} vertices added; a larger --remesh-angle or --mode flip adds fewer",
+        with_commas(report.remesh->splits));
+}
+
 int run_simplify(SimplifyArguments& arguments, Console& console) {
     check_arguments(arguments);
     const WriteOptions write_options = arguments.output.write_options();
@@ -153,6 +165,7 @@ int run_simplify(SimplifyArguments& arguments, Console& console) {
     for (std::size_t i = 0; i < names.size(); ++i)
         if (names[i] == arguments.mode) arguments.options.remesh.mode = static_cast<RemeshMode>(i);
     arguments.options.remesh.precision = arguments.output.precision();
+    arguments.options.remesh.max_vertices = sensible_limit(mesh.vertex_count());
     arguments.options.on_level = [&](const Mesh& at, const LevelReport& report) {
         Level level{report, measure(at, console.context()), path_of(arguments.output.path, report.target), false};
         if (level.measured.certificate.certified && (is_wanted_end(arguments, report) || arguments.keep_partial)) {
@@ -182,7 +195,8 @@ int run_simplify(SimplifyArguments& arguments, Console& console) {
         return exit_stopped;
     }
     if (outcome.levels.empty()) {
-        fmt::print(stderr, "delmesh: {}: {}; nothing was simplified\n", arguments.input, name(outcome.report.stop));
+        fmt::print(stderr, "delmesh: {}: {}; nothing was simplified\n", arguments.input,
+                   why_nothing_was_done(outcome.report));
         return exit_stopped;
     }
     return exit_done;

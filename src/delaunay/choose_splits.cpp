@@ -9,8 +9,8 @@ namespace {
 /// A unit of work takes about 7 ns.
 constexpr double work_per_edge = 30'000;
 constexpr double least_work = 200e6;
-/// Reached at 130,000 edges: nobody wants to wait for minutes unasked. A higher effort is asked.
-constexpr double most_work = 4e9;
+/// Reached at 67,000 edges: nobody wants to wait for minutes unasked. A higher effort is asked.
+constexpr double most_work = 2e9;
 constexpr int default_effort = 3;
 /// The share of the work in which an edge must be closed; else the rest is closed by borrowing.
 constexpr double patience = 0.25;

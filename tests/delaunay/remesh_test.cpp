@@ -223,23 +223,37 @@ TEST(Pitfalls, TiesBetweenShellsAreSettledByRule) {
     EXPECT_EQ(mesh.points()[3], (Vec3{1, 0, 0}));
 }
 
-TEST(Pitfalls, SquaredLengthsNeitherOverflowNorUnderflow) {
-    // Scaling by a power of two, with the shell unit scaled along, changes no decision.
-    const PolygonSoup soup = make_sample("torus", 200);
+/// Runs on the mesh as it is and scaled by powers of two, with the unit of the shells scaled along.
+void expect_same_at_any_scale(const char* sample, std::size_t faces, RemeshOptions options) {
+    const PolygonSoup soup = make_sample(sample, faces);
     Mesh plain(soup);
-    const RemeshReport expected = make_delaunay(plain, bounded());
+    const RemeshReport expected = make_delaunay(plain, options);
+    ASSERT_GT(expected.flips, 0u);
     for (const int exponent : {-900, -300, 300, 900}) {
         PolygonSoup scaled = soup;
         for (Vec3& p : scaled.points)
             p = {std::ldexp(p.x, exponent), std::ldexp(p.y, exponent), std::ldexp(p.z, exponent)};
         Mesh mesh(scaled);
-        RemeshOptions options = bounded();
         options.shell_unit_abs = std::ldexp(1.0, exponent);
         const RemeshReport report = make_delaunay(mesh, options);
+        EXPECT_EQ(report.flips, expected.flips);
         EXPECT_EQ(report.splits, expected.splits);
         EXPECT_TRUE(
             std::equal(mesh.corners().begin(), mesh.corners().end(), plain.corners().begin(), plain.corners().end()))
-            << exponent;
+            << sample << ' ' << exponent;
+        EXPECT_EQ(check_delaunay(mesh), "");
+    }
+}
+
+TEST(Pitfalls, SquaredLengthsNeitherOverflowNorUnderflow) {
+    expect_same_at_any_scale("torus", 200, bounded());
+    RemeshOptions options;
+    options.effort = 0;
+    expect_same_at_any_scale("plate", 150, options);
+    for (const RemeshMode mode : {RemeshMode::flip, RemeshMode::feature}) {
+        options.mode = mode;
+        expect_same_at_any_scale("plate", 300, options);
+        expect_same_at_any_scale("spikes", 150, options);
     }
 }
 
