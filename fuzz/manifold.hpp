@@ -37,6 +37,15 @@ inline std::optional<Mesh> repaired_mesh(Bytes& bytes) {
     return mesh;
 }
 
+/// The whole of a target: reads a choice of options and a mesh, and runs where there is one.
+template <class Run>
+int run_on_mesh(const std::uint8_t* data, std::size_t size, Run&& run) {
+    Bytes bytes(data, size);
+    const std::uint8_t choice = bytes.byte();
+    if (std::optional<Mesh> mesh = repaired_mesh(bytes)) run(choice, *mesh);
+    return 0;
+}
+
 /// Seeds that decode to grids, fans, closed bodies and rubbish of every style.
 inline std::vector<std::string> soup_seeds() {
     std::vector<std::string> result;

@@ -3,12 +3,9 @@
 #include "delmesh/io/read.hpp"
 
 #include "delmesh/base/error.hpp"
+#include "io/packing.hpp"
 #include "io/scene_files.hpp"
 #include "target.hpp"
-
-#define ZLIB_CONST
-#include <zlib.h>
-#include <zstd.h>
 
 #include <algorithm>
 
@@ -36,26 +33,6 @@ std::string repeated(const std::string& text, int n) {
     std::string result;
     for (int i = 0; i < n; ++i) result += text;
     return result;
-}
-
-std::string gzip(const std::string& text) {
-    std::string packed(compressBound(text.size()) + 64, '\0');
-    z_stream stream{};
-    deflateInit2(&stream, 6, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY);
-    stream.next_in = reinterpret_cast<const Bytef*>(text.data());
-    stream.avail_in = static_cast<uInt>(text.size());
-    stream.next_out = reinterpret_cast<Bytef*>(packed.data());
-    stream.avail_out = static_cast<uInt>(packed.size());
-    deflate(&stream, Z_FINISH);
-    packed.resize(stream.total_out);
-    deflateEnd(&stream);
-    return packed;
-}
-
-std::string zstd(const std::string& text) {
-    std::string packed(ZSTD_compressBound(text.size()), '\0');
-    packed.resize(ZSTD_compress(packed.data(), packed.size(), text.data(), text.size(), 1));
-    return packed;
 }
 
 std::vector<std::string> ply_seeds() {
@@ -132,7 +109,8 @@ std::vector<std::string> seeds() {
     std::vector<std::string> result;
     for (const char* format : {"ply", "obj", "off", "stl", "gltf"}) {
         for (const std::string& text : seeds_of(format)) {
-            for (const std::string& packed : {text, gzip(text), zstd(text), gzip(text) + gzip(text)})
+            for (const std::string& packed :
+                 {text, test::gzip(text), test::zstd(text), test::gzip(text) + test::gzip(text)})
                 result.push_back(packed);
         }
     }

@@ -26,6 +26,21 @@ void remesh(Mesh mesh, const RemeshOptions& options) {
     for (std::size_t i = 0; i < before; ++i) require(mesh.points()[i] == points[i], "input vertices stay", what);
 }
 
+void run(std::uint8_t choice, const Mesh& mesh) {
+    for (const RemeshMode mode : {RemeshMode::preserve, RemeshMode::flip, RemeshMode::feature}) {
+        RemeshOptions options;
+        options.mode = mode;
+        options.feature_angle_deg = choice % 8 * 20.0;
+        options.no_foldover = (choice & 8) != 0;
+        options.finish = (choice & 16) != 0 ? FlipFinish::literal : FlipFinish::keep_flipping;
+        options.order = static_cast<FlipOrder>((choice >> 5) % 3);
+        options.max_vertices = mesh.vertex_count() + 300;
+        options.placement = (choice & 4) != 0 ? SplitPlacement::shells : SplitPlacement::fewest;
+        options.effort = 0;
+        remesh(mesh, options);
+    }
+}
+
 }  // namespace
 
 std::vector<std::string> seeds() {
@@ -37,22 +52,5 @@ std::vector<std::string> seeds() {
 }  // namespace delmesh::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    using namespace delmesh;
-    fuzz::Bytes bytes(data, size);
-    const std::uint8_t choice = bytes.byte();
-    const std::optional<Mesh> mesh = fuzz::repaired_mesh(bytes);
-    if (!mesh) return 0;
-    for (const RemeshMode mode : {RemeshMode::preserve, RemeshMode::flip, RemeshMode::feature}) {
-        RemeshOptions options;
-        options.mode = mode;
-        options.feature_angle_deg = choice % 8 * 20.0;
-        options.no_foldover = (choice & 8) != 0;
-        options.finish = (choice & 16) != 0 ? FlipFinish::literal : FlipFinish::keep_flipping;
-        options.order = static_cast<FlipOrder>((choice >> 5) % 3);
-        options.max_vertices = mesh->vertex_count() + 300;
-        options.placement = (choice & 4) != 0 ? SplitPlacement::shells : SplitPlacement::fewest;
-        options.effort = 0;
-        fuzz::remesh(*mesh, options);
-    }
-    return 0;
+    return delmesh::fuzz::run_on_mesh(data, size, delmesh::fuzz::run);
 }

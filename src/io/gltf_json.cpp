@@ -14,35 +14,25 @@ Json::Json(Json&&) noexcept = default;
 Json& Json::operator=(Json&&) noexcept = default;
 Json::~Json() = default;
 
+Json::Json(Value value) : value_(std::move(value)) {}
+
 Json Json::of_bool(bool value) {
-    Json json;
-    json.value_ = value;
-    return json;
+    return Json(Value(value));
 }
 Json Json::of_whole(std::uint64_t value) {
-    Json json;
-    json.value_ = value;
-    return json;
+    return Json(Value(value));
 }
 Json Json::of_real(double value) {
-    Json json;
-    json.value_ = value;
-    return json;
+    return Json(Value(value));
 }
 Json Json::of_text(std::string value) {
-    Json json;
-    json.value_ = std::make_unique<std::string>(std::move(value));
-    return json;
+    return Json(Value(std::make_unique<std::string>(std::move(value))));
 }
 Json Json::of_list() {
-    Json json;
-    json.value_ = std::make_unique<List>();
-    return json;
+    return Json(Value(std::make_unique<List>()));
 }
 Json Json::of_members() {
-    Json json;
-    json.value_ = std::make_unique<Members>();
-    return json;
+    return Json(Value(std::make_unique<Members>()));
 }
 
 bool Json::is_true() const {

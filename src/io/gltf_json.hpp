@@ -45,9 +45,11 @@ public:
     [[nodiscard]] const Json* find(std::string_view name) const;
 
 private:
-    std::variant<std::monostate, bool, std::uint64_t, double, std::unique_ptr<std::string>, std::unique_ptr<List>,
-                 std::unique_ptr<Members>>
-        value_;
+    using Value = std::variant<std::monostate, bool, std::uint64_t, double, std::unique_ptr<std::string>,
+                               std::unique_ptr<List>, std::unique_ptr<Members>>;
+    explicit Json(Value value);
+
+    Value value_;
 };
 
 struct JsonFault {

@@ -9,26 +9,14 @@
 
 namespace delmesh::measure {
 
-struct FaceTree::Box {
-    static constexpr double infinity = std::numeric_limits<double>::infinity();
-    Vec3 low{infinity, infinity, infinity};
-    Vec3 high{-infinity, -infinity, -infinity};
+namespace {
 
-    void add(const Vec3& p) {
-        for (int axis = 0; axis < 3; ++axis) {
-            low[axis] = std::min(low[axis], p[axis]);
-            high[axis] = std::max(high[axis], p[axis]);
-        }
-    }
-    void add(const Box& box) {
-        add(box.low);
-        add(box.high);
-    }
-    [[nodiscard]] int longest_axis() const {
-        const Vec3 size = high - low;
-        return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    }
-};
+int longest_axis(const Box& box) {
+    const Vec3 size = box.high - box.low;
+    return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+}
+
+}  // namespace
 
 /// Puts the faces into the order of the tree.
 class FaceTree::Builder {
@@ -84,7 +72,7 @@ private:
                              });
         };
         constexpr std::array<double Vec3::*, 3> coordinates{&Vec3::x, &Vec3::y, &Vec3::z};
-        order(coordinates[box.longest_axis()]);
+        order(coordinates[longest_axis(box)]);
     }
 
     std::span<Item> items_;

@@ -1,6 +1,7 @@
 #pragma once
 // A search tree over triangles: which one is nearest to a point?
 
+#include "base/box.hpp"
 #include "delmesh/base/context.hpp"
 #include "measure/eight_boxes.hpp"
 #include "measure/triangle.hpp"
@@ -45,7 +46,6 @@ private:
         Vec3 origin;
         float radius;  ///< half the largest extent
     };
-    struct Box;
     class Builder;
 
     void make_nodes(const Context* context);

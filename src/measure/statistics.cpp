@@ -4,10 +4,10 @@
 #include "base/prefetch.hpp"
 #include "exact/filter.hpp"
 #include "measure/angle.hpp"
+#include "mesh/bounding_box.hpp"
 
 #include <boost/multiprecision/cpp_int.hpp>
 
-#include <limits>
 #include <numeric>
 #include <optional>
 
@@ -221,18 +221,8 @@ AngleStatistics measure_angles(const Mesh& mesh, const Context* context) {
 }
 
 double bounding_diagonal(const Mesh& mesh) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    Vec3 low{infinity, infinity, infinity};
-    Vec3 high = -low;
-    for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
-        if (!mesh.halfedge(VertexId(v)).valid()) continue;
-        const Vec3& p = mesh.point(VertexId(v));
-        for (int axis = 0; axis < 3; ++axis) {
-            low[axis] = std::min(low[axis], p[axis]);
-            high[axis] = std::max(high[axis], p[axis]);
-        }
-    }
-    return low.x > high.x ? 0 : norm(high - low);
+    const Box box = bounding_box(mesh);
+    return box.is_empty() ? 0 : norm(box.high - box.low);
 }
 
 }  // namespace delmesh

@@ -1,10 +1,10 @@
 #include "measure/surface.hpp"
 
+#include "base/box.hpp"
 #include "base/parallel.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace delmesh::measure {
 namespace {
@@ -13,19 +13,9 @@ Vec3 times_power_of_two(const Vec3& p, int exponent) {
     return {std::scalbn(p.x, exponent), std::scalbn(p.y, exponent), std::scalbn(p.z, exponent)};
 }
 
-struct Range {
-    static constexpr double infinity = std::numeric_limits<double>::infinity();
-    Vec3 low{infinity, infinity, infinity};
-    Vec3 high{-infinity, -infinity, -infinity};
-
-    void add(const TriangleView& view) {
-        for (const std::uint32_t v : view.corners) {
-            const Vec3& p = view.points[v];
-            low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-            high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-        }
-    }
-};
+void add(Box& box, const TriangleView& view) {
+    for (const std::uint32_t v : view.corners) box.add(view.points[v]);
+}
 
 double largest(const Vec3& p) {
     return std::max(std::fabs(p.x), std::max(std::fabs(p.y), std::fabs(p.z)));
@@ -42,10 +32,10 @@ std::vector<Vec3> local_points(const TriangleView& view, const Frame& frame, con
 }  // namespace
 
 Frame::Frame(const TriangleView& a, const TriangleView& b) {
-    Range range;
-    range.add(a);
-    const Range range_a = range;
-    range.add(b);
+    Box range;
+    add(range, a);
+    const Box range_a = range;
+    add(range, b);
     if (std::max(largest(range.low), largest(range.high)) > 0x1p1000) shrink_ = -30;
     const auto shrunk = [this](const Vec3& p) { return times_power_of_two(p, shrink_); };
     const Vec3 size = shrunk(range.high) - shrunk(range.low);

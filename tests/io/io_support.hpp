@@ -56,6 +56,16 @@ inline void write_bytes(const std::filesystem::path& path, std::string_view byte
     std::ofstream(path, std::ios::binary) << bytes;
 }
 
+/// Six times the enclosed volume of triangles, which tells of places, sizes and orientation.
+inline double volume6(const PolygonSoup& soup) {
+    double sum = 0;
+    for (std::size_t f = 0; f < soup.face_count(); ++f) {
+        const auto face = soup.face(f);
+        sum += dot(soup.points[face[0]], cross(soup.points[face[1]], soup.points[face[2]]));
+    }
+    return sum;
+}
+
 inline PolygonSoup parse(std::string_view bytes, std::string_view name, const ReadOptions& options = {}) {
     return parse_soup(std::as_bytes(std::span(bytes)), name, options);
 }

@@ -22,15 +22,6 @@ void expect_model_error(const std::string& resources, const std::string& items, 
     test::expect_parse_error(package_3mf(model_3mf(resources, items, more)), "a.3mf", message, code);
 }
 
-double volume(const PolygonSoup& soup) {
-    double sum = 0;
-    for (std::size_t f = 0; f < soup.face_count(); ++f) {
-        const auto face = soup.face(f);
-        sum += dot(soup.points[face[0]], cross(soup.points[face[1]], soup.points[face[2]]));
-    }
-    return sum;
-}
-
 TEST(Read3mf, DoublesAndFacesAsTheyStand) {
     for (const char* name : {"a.3mf", "a.stl", "a"}) {
         const PolygonSoup soup =
@@ -51,7 +42,7 @@ TEST(Read3mf, ItemsAndComponentsAreFlattened) {
         parse_model(resources, "<item objectid=\"2\" transform=\"1 0 0 0 1 0 0 0 1 10 20 30\"/><item objectid=\"1\"/>");
     ASSERT_EQ(soup.points.size(), 12U);
     EXPECT_EQ(soup.points[2], (Vec3{10, 23, 30}));
-    EXPECT_NEAR(volume(soup), 24 + 1 + 1, 1e-11);
+    EXPECT_NEAR(test::volume6(soup), 24 + 1 + 1, 1e-11);
     EXPECT_EQ(Mesh(soup).face_count(), 12U);
 }
 

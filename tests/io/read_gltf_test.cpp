@@ -25,16 +25,6 @@ PolygonSoup tetrahedron() {
     return soup;
 }
 
-/// Six times the enclosed volume, which tells of places, sizes and orientation.
-double volume(const PolygonSoup& soup) {
-    double sum = 0;
-    for (std::size_t f = 0; f < soup.face_count(); ++f) {
-        const auto face = soup.face(f);
-        sum += dot(soup.points[face[0]], cross(soup.points[face[1]], soup.points[face[2]]));
-    }
-    return sum;
-}
-
 TEST(ReadGltf, IndicesOfAllSizesInBothContainers) {
     for (const int indices : {1, 2, 3}) {
         for (const std::string& file : {test::glb(tetrahedron_json(one_node, indices), tetrahedron_buffer()),
@@ -81,7 +71,7 @@ TEST(ReadGltf, ScenesAreFlattened) {
     EXPECT_EQ(soup.points[3], (Vec3{10, 0, 4}));
     EXPECT_NEAR(soup.points[4 + 1].x, 9, 1e-15);
     EXPECT_NEAR(soup.points[4 + 2].y, 1, 1e-15);
-    EXPECT_NEAR(volume(soup), 24 + 1, 1e-12);
+    EXPECT_NEAR(test::volume6(soup), 24 + 1, 1e-12);
     EXPECT_EQ(Mesh(soup).face_count(), 8U);
     // Without scenes, whatever is nobody's child.
     EXPECT_EQ(test::parse(test::glb(tetrahedron_json(nodes), tetrahedron_buffer()), "a.glb").points.size(), 12U);
@@ -91,7 +81,7 @@ TEST(ReadGltf, MirrorsKeepTheOutsideOut) {
     for (const char* node :
          {"[{\"mesh\":0,\"scale\":[-1,1,1]}]", "[{\"mesh\":0,\"matrix\":[0,1,0,0,1,0,0,0,0,0,1,0,5,6,7,1]}]"}) {
         const PolygonSoup soup = test::parse(test::glb(tetrahedron_json(node), tetrahedron_buffer()), "a.glb");
-        EXPECT_NEAR(volume(soup), 1, 1e-14) << node;
+        EXPECT_NEAR(test::volume6(soup), 1, 1e-14) << node;
         EXPECT_EQ(Mesh(soup).face_count(), 4U);
     }
 }

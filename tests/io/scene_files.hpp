@@ -2,9 +2,7 @@
 // glTF and 3MF files made by code, for tests and as seeds of the fuzz targets.
 
 #include "io/endian.hpp"
-
-#define ZLIB_CONST
-#include <zlib.h>
+#include "io/packing.hpp"
 
 #include <cstdint>
 #include <string>
@@ -50,16 +48,7 @@ inline std::string zip(const std::vector<std::pair<std::string, std::string>>& f
     std::string archive;
     std::string directory;
     for (const auto& [name, text] : files) {
-        std::string packed(compressBound(text.size()) + 64, '\0');
-        z_stream stream{};
-        deflateInit2(&stream, 6, Z_DEFLATED, -15, 8, Z_DEFAULT_STRATEGY);
-        stream.next_in = reinterpret_cast<const Bytef*>(text.data());
-        stream.avail_in = static_cast<uInt>(text.size());
-        stream.next_out = reinterpret_cast<Bytef*>(packed.data());
-        stream.avail_out = static_cast<uInt>(packed.size());
-        deflate(&stream, Z_FINISH);
-        packed.resize(stream.total_out);
-        deflateEnd(&stream);
+        const std::string packed = deflated(text, -15);
         std::string common;
         for (const int v : {20, 0, 8, 0, 0x21}) put(common, static_cast<std::uint16_t>(v));
         put(common, static_cast<std::uint32_t>(

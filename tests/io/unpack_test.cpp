@@ -7,35 +7,13 @@
 #include "delmesh/mesh/shapes.hpp"
 #include "io/allocation_watch.hpp"
 #include "io/io_support.hpp"
-
-#define ZLIB_CONST
-#include <zlib.h>
-#include <zstd.h>
+#include "io/packing.hpp"
 
 namespace delmesh {
 namespace {
 
-std::string gzip(std::string_view bytes) {
-    z_stream stream{};
-    EXPECT_EQ(deflateInit2(&stream, 6, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY), Z_OK);
-    std::string packed(deflateBound(&stream, bytes.size()) + 64, '\0');
-    stream.next_in = reinterpret_cast<const Bytef*>(bytes.data());
-    stream.avail_in = static_cast<uInt>(bytes.size());
-    stream.next_out = reinterpret_cast<Bytef*>(packed.data());
-    stream.avail_out = static_cast<uInt>(packed.size());
-    EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
-    packed.resize(stream.total_out);
-    deflateEnd(&stream);
-    return packed;
-}
-
-std::string zstd(std::string_view bytes) {
-    std::string packed(ZSTD_compressBound(bytes.size()), '\0');
-    const std::size_t n = ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), 3);
-    EXPECT_FALSE(ZSTD_isError(n));
-    packed.resize(n);
-    return packed;
-}
+using test::gzip;
+using test::zstd;
 
 using Pack = std::string (*)(std::string_view);
 constexpr Pack packs[] = {gzip, zstd};

@@ -15,14 +15,8 @@ struct Quadric {
 
     /// weight * (normal.x - offset)^2. The normal need not have unit length.
     void add_plane(const Vec3& normal, double offset, double weight) {
-        const Vec3 n = normal * weight;
-        xx += n.x * normal.x;
-        xy += n.x * normal.y;
-        xz += n.x * normal.z;
-        yy += n.y * normal.y;
-        yz += n.y * normal.z;
-        zz += n.z * normal.z;
-        b = b - n * offset;
+        add_plane_through_origin(normal, weight);
+        b = b - normal * weight * offset;
         c += weight * offset * offset;
     }
     /// weight * (normal.x)^2.
