@@ -69,6 +69,7 @@ Json run_to_json(const RemeshArguments& arguments, const Outcome& outcome) {
     json["exposed"] = report.exposed;
     json["foldovers"] = report.foldovers;
     if (arguments.options.mode == RemeshMode::preserve) json["lower_bound"] = report.lower_bound;
+    if (report.lower_bound_strong) json["lower_bound_strong"] = *report.lower_bound_strong;
     if (report.splits_by_shells > 0) json["splits_by_shells"] = report.splits_by_shells;
     if (outcome.growth) json["growth"] = growth_to_json(*outcome.growth);
     json["flat_tolerance"] = report.flat_tolerance;
@@ -120,7 +121,8 @@ std::string why_it_stopped(const RemeshArguments& arguments, const Outcome& outc
 std::string summary(const RemeshReport& report, double seconds, bool preserve) {
     std::string text = fmt::format("{} flips, {} splits", with_commas(report.flips), with_commas(report.splits));
     if (preserve)
-        text += fmt::format(" (no method that keeps the surface adds fewer than {})", with_commas(report.lower_bound));
+        text += fmt::format(" (no method that keeps the surface adds fewer than {})",
+                            with_commas(report.lower_bound_strong.value_or(report.lower_bound)));
     if (report.foldovers > 0)
         text += fmt::format(", {} faces turned by more than 90 degrees", with_commas(report.foldovers));
     return text + fmt::format(" in {:.3g} s", seconds);

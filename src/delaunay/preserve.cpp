@@ -8,6 +8,7 @@
 #include "delaunay/flat_rule.hpp"
 #include "delaunay/marked_mesh.hpp"
 #include "delaunay/refine.hpp"
+#include "delaunay/split_bound.hpp"
 #include "delaunay/unit_frame.hpp"
 #include "delmesh/exact/predicates.hpp"
 
@@ -70,6 +71,12 @@ void preserve_surface(Mesh& mesh, const RemeshOptions& options, const Context* c
     report.flips += classified.caps.flips;
     RefineStart start = flip_planar_edges(marked, options, context, report);
     if (options.on_growth) options.on_growth(estimate_growth(mesh, start.bad, options));
+    if (options.bound) {
+        SplitBoundOptions bound;
+        bound.exact_facets = tolerance == 0;
+        if (options.precision == Precision::float32) bound.rounding = 0x1p-21;
+        report.lower_bound_strong = strong_lower_bound(marked, start.bad, bound, context);
+    }
     if (options.placement == SplitPlacement::fewest && !start.bad.empty()) {
         preserve_with_fewest(marked, options, context, report, start);
     } else {

@@ -121,6 +121,15 @@ TEST_F(Contract, RemeshTellsEverythingAboutTheRun) {
     EXPECT_EQ(quiet.out + quiet.err, "");
 }
 
+TEST_F(Contract, TheProvedBoundIsToldWhereItIsAskedFor) {
+    ASSERT_EQ(delmesh("sample terrain a.ply --faces 500").exit_code, 0);
+    EXPECT_FALSE(delmesh("remesh a.ply b.ply --json").json().contains("lower_bound_strong"));
+    EXPECT_FALSE(delmesh("remesh a.ply b.ply --json --bound --mode flip").json().contains("lower_bound_strong"));
+    const nlohmann::json json = delmesh("remesh a.ply b.ply --json --bound").json();
+    EXPECT_GT(json["lower_bound_strong"], json["lower_bound"]);
+    EXPECT_LE(json["lower_bound_strong"], json["splits"]);
+}
+
 TEST_F(Contract, FlatToleranceIsARuleOrANumberAndItsEffectIsReported) {
     ASSERT_EQ(delmesh("sample inclined-grid a.ply --faces 500").exit_code, 0);
     const nlohmann::json exact = delmesh("remesh a.ply b.ply --json").json();

@@ -95,6 +95,8 @@ struct RemeshOptions {
     std::size_t effort = 3;
     /// Placement fewest: other seeds find other, about equally good places.
     std::size_t seed = 1;
+    /// Mode preserve: also prove a lower bound that is better than the number of edges that must be split.
+    bool bound = false;
     /// The unit of the concentric shells: split vertices lie at the distance 2^k * shell_unit_abs from an end of
     /// their edge. In units of the coordinates, above 0. The paper's delta.
     double shell_unit_abs = 1;
@@ -129,6 +131,7 @@ struct RemeshOptions {
                                       .highest = 12,
                                       .help = "placement fewest: how long to search; each step doubles the work"});
         visit(self.seed, OptionInfo{.name = "seed", .lowest = 0, .help = "placement fewest: seed of the search"});
+        visit(self.bound, OptionInfo{.name = "bound", .help = "mode preserve: prove how many splits any method needs"});
         visit(self.shell_unit_abs,
               OptionInfo{.name = "shell-unit",
                          .unit = "abs",
@@ -169,6 +172,8 @@ struct RemeshReport {
     /// Mode preserve: edges that had to be split after planar flips alone: no method that keeps the surface adds fewer
     /// vertices.
     std::size_t lower_bound = 0;
+    /// The same, proved to be as high as this; where RemeshOptions::bound asks for it. docs/fewest.md has the proof.
+    std::optional<std::size_t> lower_bound_strong;
     /// Placement fewest: what placement shells would have split; 0 where that was not found out.
     std::size_t splits_by_shells = 0;
     /// Mode preserve: the flat tolerance that was used, and an upper bound of how far any point of either surface is
