@@ -17,6 +17,11 @@ struct FramePoint {
     Interval y;
 };
 
+/// Above the edge for certain, and within the range where nothing over- or underflows.
+[[nodiscard]] inline bool is_usable(const FramePoint& p) {
+    return p.y.low > 0x1p-100 && p.y.high < 0x1p100 && std::fabs(p.x.low) < 0x1p100 && std::fabs(p.x.high) < 0x1p100;
+}
+
 /// The cotangent of the angle at which p sees the whole edge, times p.y.
 [[nodiscard]] inline Interval scaled_cot(const FramePoint& p) {
     return p.x * (p.x - exactly(1)) + square(p.y);

@@ -23,6 +23,7 @@ CorePacking::CorePacking(std::vector<EdgeNeed> needs)
                 i = static_cast<std::uint32_t>(owner_.size());
                 index.insert(blocker.edge, i);
                 owner_.push_back(none);
+                blocking_edges_.push_back(blocker.edge);
             }
             blocker.edge = i;
         }

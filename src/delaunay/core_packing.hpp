@@ -18,6 +18,19 @@ public:
     /// The number of cores found. Small cores first; then edges are exchanged along short chains.
     [[nodiscard]] std::size_t run();
 
+    [[nodiscard]] const std::vector<EdgeNeed>& needs() const { return needs_; }
+    /// Calls take(edge that must be split, edges that block it) for each core.
+    template <class Take>
+    void for_each_core(Take&& take) const {
+        std::vector<std::uint32_t> blockers;
+        for (std::size_t core = 0; core < needs_.size(); ++core) {
+            if (members_[core].empty()) continue;
+            blockers.clear();
+            for (const std::uint32_t i : members_[core]) blockers.push_back(blocking_edges_[i]);
+            take(needs_[core].edge, blockers);
+        }
+    }
+
 private:
     static constexpr std::uint32_t none = IdMap::none;
 
@@ -36,8 +49,9 @@ private:
 
     std::vector<EdgeNeed> needs_;
     std::vector<std::vector<std::uint32_t>> members_;  ///< the blockers that each core uses, by their index below
-    std::vector<std::uint32_t> owner_;                 ///< by blocking edge: the core
-    std::vector<bool> locked_;                         ///< by core: not to be taken from
+    std::vector<std::uint32_t> blocking_edges_;
+    std::vector<std::uint32_t> owner_;  ///< by blocking edge: the core
+    std::vector<bool> locked_;          ///< by core: not to be taken from
     std::vector<Change> changes_;
     std::vector<std::uint32_t> found_;
     std::size_t work_ = 0;

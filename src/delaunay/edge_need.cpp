@@ -9,10 +9,6 @@ namespace {
 constexpr std::size_t most_points = 1000;
 constexpr int most_steps = 60;
 
-[[nodiscard]] bool is_usable(const FramePoint& p) {
-    return p.y.low > 0x1p-100 && p.y.high < 0x1p100 && std::fabs(p.x.low) < 0x1p100 && std::fabs(p.x.high) < 0x1p100;
-}
-
 /// A straight line of points in the frame of another edge, and the circle through that edge in which a point makes it
 /// bad.
 struct Crossing {

@@ -1,5 +1,6 @@
 #include "delaunay/split_bound.hpp"
 
+#include "delaunay/cluster_cores.hpp"
 #include "delaunay/core_packing.hpp"
 #include "delaunay/edge_need.hpp"
 
@@ -21,7 +22,9 @@ std::size_t strong_lower_bound(const MarkedMesh& marked, std::span<const EdgeId>
         needs.push_back(study.study(e, is_open));
         points += needs.back().points;
     }
-    return points + CorePacking(std::move(needs)).run();
+    CorePacking packing(std::move(needs));
+    points += packing.run();
+    return points + ClusterCores(view, packing, is_open).run(context);
 }
 
 }  // namespace delmesh
