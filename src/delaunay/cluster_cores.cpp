@@ -9,6 +9,8 @@ constexpr std::size_t largest_cluster = 4;
 constexpr std::size_t most_gain = 4;
 constexpr std::size_t largest_core = 4;
 constexpr std::size_t most_boxes = 1000;
+/// In corners and lines that are looked at, for each edge or core that something is tried for.
+constexpr std::size_t most_work = 100'000;
 constexpr std::size_t most_scenes = 20000;
 constexpr double least_width = 1e-7;
 
@@ -45,7 +47,8 @@ const EdgeScene& ClusterCores::scene(std::uint32_t edge) {
     return *scenes_.back();
 }
 
-void ClusterCores::forget_scenes() {
+void ClusterCores::start_trying() {
+    work_ = 0;
     if (scenes_.size() < most_scenes) return;
     scenes_.clear();
     scene_of_ = IdMap();
@@ -61,7 +64,7 @@ std::size_t ClusterCores::run(const Context* context) {
         for (const EdgeNeed& need : needs_) {
             if (is_cancelled(context)) return gain;
             if (!is_candidate(need.edge)) continue;
-            forget_scenes();
+            start_trying();
             cluster_.assign(1, need.edge);
             if (grow_cluster(size)) ++gain;
         }
@@ -80,7 +83,7 @@ std::size_t ClusterCores::improve(const Context* context, May&& may, bool (Clust
     for (std::uint32_t core = 0; core < cores_.size() && !is_cancelled(context); ++core) {
         if (!may(cores_[core]) || cores_[core].split.size() > largest_core || has_several_points(cores_[core]))
             continue;
-        forget_scenes();
+        start_trying();
         if ((this->*step)(core)) ++gain;
     }
     return gain;
@@ -101,10 +104,12 @@ std::vector<std::uint32_t> ClusterCores::candidates_around(std::uint32_t core) {
         if (is_candidate(other) && !contains(cluster_, other)) around.push_back(other);
     };
     for (const std::uint32_t e : cluster_) {
+        work_ += scene(e).size();
         for (const std::uint32_t other : scene(e).neighbours()) {
             consider(other);
             const std::uint32_t owner = core_of_.find(other);
             if (is_open_[other] || (owner != none && owner != core)) continue;
+            work_ += scene(other).size();
             for (const std::uint32_t beyond : scene(other).neighbours()) consider(beyond);
         }
     }
@@ -125,6 +130,7 @@ bool ClusterCores::join_edge(std::uint32_t core) {
 
 /// Adds edges nearby until the cluster has its size, and tries to prove it.
 bool ClusterCores::grow_cluster(std::size_t size) {
+    if (work_ > most_work) return false;
     if (cluster_.size() == size) return prove(cluster_, none, 0);
     for (const std::uint32_t other : candidates_around(none)) {
         if (other < cluster_.front()) continue;
@@ -199,6 +205,7 @@ void ClusterCores::gather_watchers() {
     const std::vector<std::uint32_t> split = watchers_;
     std::vector<std::uint32_t> others;
     for (const std::uint32_t e : split) {
+        work_ += scene(e).size();
         for (const std::uint32_t other : scene(e).neighbours()) {
             if (is_open_[other] || contains(split, other)) continue;
             if (core_of_.find(other) == none || is_in_proof(other)) others.push_back(other);
@@ -217,7 +224,7 @@ bool ClusterCores::refute() {
     gather_watchers();
     std::vector<Box> boxes{all_places()};
     for (std::size_t count = 0; !boxes.empty(); ++count) {
-        if (count == most_boxes) return false;
+        if (count == most_boxes || work_ > most_work) return false;
         Box box = std::move(boxes.back());
         boxes.pop_back();
         if (is_refuted(box)) continue;
@@ -243,7 +250,9 @@ bool ClusterCores::is_refuted(const Box& box) {
     for (const int round : {0, 1, 2}) {
         for (std::size_t i = 0; i < watchers_.size(); ++i) {
             const int turn = is_used_[i] ? 0 : is_in_proof(watchers_[i]) ? 1 : 2;
-            if (turn != round || !scene(watchers_[i]).is_bad(box)) continue;
+            if (turn != round) continue;
+            work_ += scene(watchers_[i]).size();
+            if (!scene(watchers_[i]).is_bad(box)) continue;
             is_used_[i] = true;
             return true;
         }

@@ -33,7 +33,7 @@ private:
     using Box = std::vector<VaguePoint>;
 
     [[nodiscard]] const EdgeScene& scene(std::uint32_t edge);
-    void forget_scenes();
+    void start_trying();
     [[nodiscard]] bool is_candidate(std::uint32_t edge) const;
     [[nodiscard]] bool has_several_points(const Core& core) const;
     [[nodiscard]] std::vector<std::uint32_t> candidates_around(std::uint32_t core);
@@ -60,6 +60,7 @@ private:
     IdMap core_of_;  ///< by edge
     std::vector<std::uint32_t> cluster_;
 
+    std::size_t work_ = 0;
     std::uint32_t core_ = none;            ///< the one that a proof is for, if it is there already
     std::vector<std::uint32_t> points_;    ///< the edges with points, once for each
     std::vector<std::uint32_t> in_proof_;  ///< all edges that the proof is about

@@ -60,6 +60,7 @@ void EdgeScene::look(BoundView& view, const BoundView::Frame& frame, HalfedgeId 
             {other.value(), view.locate(frame, mesh.origin(name)), view.locate(frame, mesh.target(name))});
         neighbours_.push_back(other.value());
     }
+    size_ += scene.corners.size() + scene.lines.size();
 }
 
 /// Parts between points are the easiest to keep Delaunay where they are shortest, so these are what a proof is about.

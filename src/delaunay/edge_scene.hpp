@@ -26,6 +26,8 @@ public:
     EdgeScene(BoundView& view, EdgeId e);
 
     [[nodiscard]] std::uint32_t edge() const { return edge_; }
+    /// How much there is to look at.
+    [[nodiscard]] std::size_t size() const { return size_; }
     /// The edges that share a facet with it and see all of it.
     [[nodiscard]] const std::vector<std::uint32_t>& neighbours() const { return neighbours_; }
     /// True if no part of the edge is bad, in doubles, with each point in the middle of its stretch.
@@ -66,6 +68,7 @@ private:
     std::uint32_t edge_;
     double slack_ = 0;
     int sides_ = 0;
+    std::size_t size_ = 0;
     std::array<SideScene, 2> scenes_;
     std::vector<std::uint32_t> neighbours_;
 };
