@@ -10,7 +10,7 @@ import mesh_file
 import render
 
 MODES = [("original", None), ("flip", ["--mode", "flip"]), ("preserve", ["--placement", "shells"]),
-         ("feature, 10°", ["--mode", "feature", "--feature-angle", "10"])]
+         ("feature, 10°", ["--placement", "shells", "--mode", "feature", "--feature-angle", "10"])]
 
 
 class Subject:

@@ -96,7 +96,8 @@ def plot(subject, rows):
 def run():
     table = []
     for chosen in subjects():
-        start, _ = command.remesh(chosen.source, f"figure12-{chosen.name}", "--mode", "feature", "--feature-angle", 15)
+        start, _ = command.remesh(chosen.source, f"figure12-{chosen.name}", "--mode", "feature", "--feature-angle", 15,
+                                  "--placement", "shells")
         make_levels(chosen, start)
         rows = measure(chosen, start)
         draw(chosen, rows)

@@ -1,20 +1,14 @@
 #include "delmesh/delaunay/remesh.hpp"
 
 #include "delaunay/classify.hpp"
-#include "delaunay/clean.hpp"
-#include "delaunay/features.hpp"
-#include "delaunay/flip.hpp"
-#include "delaunay/marked_mesh.hpp"
-#include "delaunay/non_delaunay.hpp"
+#include "delaunay/flip_surface.hpp"
 #include "delaunay/preserve.hpp"
-#include "delaunay/refine.hpp"
 #include "delmesh/base/error.hpp"
 #include "delmesh/mesh/rounding.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <utility>
 
 namespace delmesh {
 namespace {
@@ -91,44 +85,6 @@ std::span<const std::string_view> choices(FlatRule) {
 }
 
 namespace {
-
-/// Rounds of removing what rounding has flattened and flipping again.
-constexpr int most_cleanings = 50;
-
-/// Algorithm 2 and section 6: flips, then Algorithm 1 for what is left, with all vertices of that moment as input.
-void flip_surface(Mesh& mesh, const RemeshOptions& options, const Context* context, RemeshReport& report) {
-    const bool features = options.mode == RemeshMode::feature;
-    MarkedMesh flipping(
-        mesh,
-        mark_features(mesh, features ? options.feature_angle_deg : 180,
-                      features ? options.feature_edges : std::vector<std::array<VertexId, 2>>{}, context),
-        {});
-    flip_edges(flipping, features, options, context, report);
-    Cleaning cleaning;
-    for (int round = 0; round < most_cleanings && report.stop == StopReason::done; ++round) {
-        cleaning = clean_up(flipping, context);
-        if (cleaning.changes == 0) break;
-        flip_edges(flipping, features, options, context, report);
-    }
-    report.splits = flipping.split_count();
-    report.provenance = flipping.take_provenance();
-    if (report.stop != StopReason::done) return;
-    if (cleaning.changes == 0 && !cleaning.left && find_non_delaunay(mesh, context).empty()) return;
-
-    RemeshReport rest;
-    MarkedMesh refining(mesh, mark_edges(mesh, context), {});
-    RefineStart start = flip_planar_edges(refining, options, context, rest);
-    refining.reserve_splits(6 * start.bad.size());
-    refine_and_clean(refining, options, context, rest, std::move(start.queue));
-    report.stop = rest.stop;
-    report.witness = rest.witness;
-    report.flips += rest.flips;
-    report.splits += rest.splits;
-    report.splits_boundary += rest.splits_boundary;
-    report.splits_unflippable += rest.splits_feature + rest.splits_unflippable;
-    const std::vector<SplitPoint> more = refining.take_provenance().splits;
-    report.provenance.splits.insert(report.provenance.splits.end(), more.begin(), more.end());
-}
 
 /// The mode that an angle of 0 or 180 degrees comes down to.
 RemeshMode effective_mode(const RemeshOptions& options) {

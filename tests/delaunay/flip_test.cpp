@@ -147,14 +147,14 @@ TEST_P(Flip, FeatureAnglesAtTheEndsAreTheOtherModes) {
     }
 }
 
-TEST_P(Flip, FeaturesAreTiledByEdgesOfTheOutput) {
-    if (GetParam().has_zero_area) return;
-    const Mesh before(GetParam().soup);
+/// Features lie under chains of output edges, from end to end.
+void expect_features_tiled(const Mesh& before, const RemeshOptions& options) {
     Mesh after = before;
-    const RemeshOptions options = options_of(RemeshMode::feature);
     const RemeshReport report = make_delaunay(after, options);
     if (report.stop != StopReason::done) GTEST_SKIP() << "does not become Delaunay within the bound";
-    const std::vector<Mark> marks = mark_features(before, options.feature_angle_deg, {}, nullptr);
+    EXPECT_EQ(check_delaunay(after), "");
+    EXPECT_EQ(report.splits_boundary + report.splits_feature + report.splits_unflippable, report.splits);
+    const std::vector<Mark> marks = mark_features(before, options.feature_angle_deg, options.feature_edges, nullptr);
     std::map<std::pair<VertexId, VertexId>, std::vector<std::pair<double, VertexId>>> chains;
     for (std::size_t i = 0; i < marks.size(); ++i) {
         const HalfedgeId h(i);
@@ -173,6 +173,41 @@ TEST_P(Flip, FeaturesAreTiledByEdgesOfTheOutput) {
         for (std::size_t i = 0; i + 1 < chain.size(); ++i)
             EXPECT_TRUE(after.are_joined(chain[i].second, chain[i + 1].second))
                 << ends.first.value() << "-" << ends.second.value();
+    }
+}
+
+TEST_P(Flip, FeaturesAreTiledByEdgesOfTheOutput) {
+    if (GetParam().has_zero_area) return;
+    const Mesh before(GetParam().soup);
+    for (const SplitPlacement placement : {SplitPlacement::shells, SplitPlacement::fewest}) {
+        RemeshOptions options = options_of(RemeshMode::feature);
+        options.placement = placement;
+        expect_features_tiled(before, options);
+        // Listed edges anywhere: on creases, inside plane facets, at the boundary.
+        for (std::size_t i = 0; i < before.halfedge_count(); i += 7)
+            options.feature_edges.push_back({before.origin(HalfedgeId(i)), before.target(HalfedgeId(i))});
+        expect_features_tiled(before, options);
+    }
+}
+
+TEST(Features, TheSearchNeverSplitsMore) {
+    for (const char* name : {"noisy-sphere", "terrain", "plate", "noisy-surface"}) {
+        for (const double angle : {1.0, 5.0, 20.0}) {
+            RemeshOptions options = options_of(RemeshMode::feature);
+            options.feature_angle_deg = angle;
+            Mesh few(make_sample(name, 300));
+            Mesh many = few;
+            const RemeshReport fewest = make_delaunay(few, options);
+            options.placement = SplitPlacement::shells;
+            const RemeshReport shells = make_delaunay(many, options);
+            ASSERT_EQ(fewest.stop, StopReason::done);
+            EXPECT_EQ(check_delaunay(few), "");
+            EXPECT_LE(fewest.splits, shells.splits) << name << ' ' << angle;
+            EXPECT_EQ(fewest.splits_by_shells, shells.splits) << name << ' ' << angle;
+            if (angle == 1.0) {
+                EXPECT_LT(fewest.splits, shells.splits) << name;
+            }
+        }
     }
 }
 

@@ -76,11 +76,12 @@ struct SimplifyOptions {
     /// Called when a level is reached, fine to coarse, with a compact mesh that is valid during the call.
     std::function<void(const Mesh&, const LevelReport&)> on_level;
 
-    /// Mode feature, at an angle that docs/simplify.md justifies.
+    /// Mode feature, at an angle that docs/simplify.md justifies; by shells, as most split points go again at once.
     [[nodiscard]] static RemeshOptions default_remesh() {
         RemeshOptions remesh;
         remesh.mode = RemeshMode::feature;
         remesh.feature_angle_deg = 15;
+        remesh.placement = SplitPlacement::shells;
         return remesh;
     }
 

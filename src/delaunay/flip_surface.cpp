@@ -1,0 +1,135 @@
+#include "delaunay/flip_surface.hpp"
+
+#include "delaunay/classify.hpp"
+#include "delaunay/clean.hpp"
+#include "delaunay/features.hpp"
+#include "delaunay/fewest.hpp"
+#include "delaunay/flip.hpp"
+#include "delaunay/marked_mesh.hpp"
+#include "delaunay/non_delaunay.hpp"
+#include "delaunay/refine.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace delmesh {
+namespace {
+
+/// Rounds of removing what rounding has flattened and flipping again.
+constexpr int most_cleanings = 50;
+
+std::vector<Mark> marks_for(const Mesh& mesh, const RemeshOptions& options, const Context* context) {
+    if (options.mode == RemeshMode::flip) return mark_features(mesh, 180, {}, context);
+    return mark_features(mesh, options.feature_angle_deg, options.feature_edges, context);
+}
+
+/// Flips, and where asked for splits, until nothing more can be done that way. Returns what is left by rounding.
+Cleaning flip_and_clean(MarkedMesh& marked, bool split_features, const RemeshOptions& options, const Context* context,
+                        RemeshReport& report) {
+    flip_edges(marked, split_features, options, context, report);
+    Cleaning cleaning;
+    for (int round = 0; round < most_cleanings && report.stop == StopReason::done; ++round) {
+        cleaning = clean_up(marked, context);
+        if (cleaning.changes == 0) break;
+        flip_edges(marked, split_features, options, context, report);
+    }
+    return cleaning;
+}
+
+/// Edges by their ends, smaller vertex first, sorted.
+using Ends = std::vector<std::array<VertexId, 2>>;
+
+Ends ends_of_features(const MarkedMesh& marked) {
+    const Mesh& mesh = marked.mesh();
+    Ends ends;
+    for (std::size_t i = 0; i < mesh.halfedge_count(); ++i) {
+        const HalfedgeId h(i);
+        const HalfedgeId t = mesh.twin(h);
+        if (marked.is_planar(h) || !t.valid() || t < h) continue;
+        ends.push_back({std::min(mesh.origin(h), mesh.target(h)), std::max(mesh.origin(h), mesh.target(h))});
+    }
+    std::sort(ends.begin(), ends.end());
+    return ends;
+}
+
+/// Marks for Algorithm 1 after the flips: features that lie in a plane are still not flipped.
+std::vector<Mark> marks_for_splitting(const MarkedMesh& flipped, const Context* context) {
+    std::vector<Mark> marks = mark_edges(flipped.mesh(), context);
+    for (std::size_t i = 0; i < marks.size(); ++i)
+        if (!flipped.is_planar(HalfedgeId(i))) marks[i] = Mark::physical;
+    return marks;
+}
+
+/// Adds what Algorithm 1 did after the flips.
+void add(RemeshReport& report, const RemeshReport& rest, const std::vector<SplitPoint>& splits, const Ends& features) {
+    const auto of_features =
+        static_cast<std::size_t>(std::count_if(splits.begin(), splits.end(), [&](const SplitPoint& s) {
+            return std::binary_search(features.begin(), features.end(), std::array{s.a, s.b});
+        }));
+    report.stop = rest.stop;
+    report.witness = rest.witness;
+    report.flips += rest.flips;
+    report.splits += rest.splits;
+    report.splits_boundary += rest.splits_boundary;
+    report.splits_feature += of_features;
+    report.splits_unflippable += rest.splits - rest.splits_boundary - of_features;
+    report.provenance.splits.insert(report.provenance.splits.end(), splits.begin(), splits.end());
+}
+
+enum class Way {
+    published,  ///< features are split as they come up, at shells
+    patient,    ///< flips alone first, so that no feature is split that a flip beside it would save; then a search
+};
+
+/// Flips; then Algorithm 1 for what is left, with all vertices of that moment as input.
+void flip_surface(Mesh& mesh, Way way, const RemeshOptions& options, const Context* context, RemeshReport& report) {
+    const bool patient = way == Way::patient;
+    RemeshOptions flips = options;
+    if (patient) flips.finish = FlipFinish::literal;
+    MarkedMesh flipping(mesh, marks_for(mesh, options, context), {});
+    const bool split_features = options.mode == RemeshMode::feature && !patient;
+    const Cleaning cleaning = flip_and_clean(flipping, split_features, flips, context, report);
+    report.splits = flipping.split_count();
+    if (report.stop == StopReason::done &&
+        (cleaning.changes > 0 || cleaning.left || !find_non_delaunay(mesh, context).empty())) {
+        std::vector<Mark> marks = marks_for_splitting(flipping, context);
+        const Ends features = ends_of_features(flipping);
+        report.provenance = flipping.take_provenance();
+        std::vector<FaceId> facets = find_facets(mesh, marks);
+        MarkedMesh splitting(mesh, std::move(marks), std::move(facets));
+        RemeshReport rest;
+        RefineStart start = flip_planar_edges(splitting, options, context, rest);
+        if (patient && !start.bad.empty()) {
+            preserve_with_fewest(splitting, options, context, rest, start);
+        } else {
+            splitting.reserve_splits(6 * start.bad.size());
+            refine_and_clean(splitting, options, context, rest, std::move(start.queue));
+        }
+        add(report, rest, splitting.take_provenance().splits, features);
+    } else {
+        report.provenance = flipping.take_provenance();
+    }
+}
+
+}  // namespace
+
+void flip_surface(Mesh& mesh, const RemeshOptions& options, const Context* context, RemeshReport& report) {
+    const bool two_ways = options.mode == RemeshMode::feature && options.placement == SplitPlacement::fewest;
+    if (!two_ways) return flip_surface(mesh, Way::published, options, context, report);
+
+    Mesh other_mesh = mesh;
+    RemeshReport other = report;
+    flip_surface(mesh, Way::published, options, context, report);
+    if (report.stop == StopReason::cancelled || (report.stop == StopReason::done && report.splits == 0)) return;
+    const std::size_t by_shells = report.stop == StopReason::done ? report.splits : 0;
+    flip_surface(other_mesh, Way::patient, options, context, other);
+    const bool fewer =
+        other.stop == StopReason::done && (report.stop != StopReason::done || other.splits < report.splits);
+    if (fewer || other.stop == StopReason::cancelled) {
+        mesh = std::move(other_mesh);
+        report = std::move(other);
+    }
+    report.splits_by_shells = by_shells;
+}
+
+}  // namespace delmesh

@@ -1,0 +1,15 @@
+#pragma once
+// Modes flip and feature: flips across the surface, then splits for what is left.
+
+#include "delmesh/base/context.hpp"
+#include "delmesh/delaunay/remesh.hpp"
+#include "delmesh/mesh/mesh.hpp"
+
+namespace delmesh {
+
+/// Algorithm 2 and section 6 of the paper. In mode feature with placement `fewest`, the second way is tried as well:
+/// first flips alone, then the surface stays, features with it, and a search places the splits. The way with fewer
+/// splits is taken.
+void flip_surface(Mesh& mesh, const RemeshOptions& options, const Context* context, RemeshReport& report);
+
+}  // namespace delmesh
