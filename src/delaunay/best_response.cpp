@@ -1,5 +1,7 @@
 #include "delaunay/best_response.hpp"
 
+#include "delaunay/thread_places.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,7 +21,6 @@ constexpr double centre_share = 0.4;
 constexpr double align_share = 0.5;
 constexpr int max_newton = 60;
 constexpr std::size_t max_chain = 64;
-constexpr std::size_t many_sides = 8;
 /// Among more points a search by the model is faster.
 constexpr std::size_t longest_list = 24;
 /// What a response costs beside the evaluations that are counted one by one.
@@ -211,45 +212,7 @@ int BestResponse::soft_weight(double t) const {
     return static_cast<int>(sum);
 }
 
-// --- promising places ---
-
-/// Where a thread of points over several edges would go on: at the same distance from the corner where two edges meet
-/// (so threads around a sharp corner close), and parallel to the third side of a triangle.
-void BestResponse::align(std::uint32_t e) {
-    aligned_.clear();
-    for (const std::uint32_t own : model_.layout().edge(e).side) {
-        if (own == SplitModel::none) continue;
-        const Facet& facet = model_.layout().facet(model_.layout().side(own).facet);
-        if (facet.side_count > many_sides) continue;
-        for (std::uint32_t s = facet.first_side; s < facet.first_side + facet.side_count; ++s)
-            if (model_.layout().side(s).edge != e) align_with_side(model_.layout().side(own), model_.layout().side(s));
-    }
-    std::sort(aligned_.begin(), aligned_.end());
-}
-
-void BestResponse::align_with_side(const Side& own, const Side& other) {
-    const std::size_t n = model_.point_count(other.edge);
-    if (n == 0) return;
-    const Point2 u = (1 / std::sqrt(dot(own.along, own.along))) * own.along;
-    const Point2 v = (1 / std::sqrt(dot(other.along, other.along))) * other.along;
-    const Point2 w = dot(u, v) < 0 ? u - v : u + v;
-    const double inverse = 1 / dot(own.along, w);
-    const Facet& facet = model_.layout().facet(own.facet);
-    Point2 third{};
-    if (facet.single)
-        for (std::uint32_t s = facet.first_side; s < facet.first_side + 3; ++s)
-            if (model_.layout().side(s).edge != own.edge && model_.layout().side(s).edge != other.edge)
-                third = model_.layout().side(s).y_row;
-    const double third_inverse = 1 / dot(own.along, third);
-    const auto take = [&](double t) {
-        if (t > low_ && t < high_) aligned_.push_back(t);
-    };
-    for (const Part& part : model_.parts(other.edge).first(n)) {
-        const Point2 p = other.at(part.end) - own.start;
-        take(dot(p, w) * inverse);
-        if (facet.single) take(dot(p, third) * third_inverse);
-    }
-}
+// --- places to try ---
 
 /// Places near the ends of a cell, at a random scale: what is blocked there is blocked by a hair.
 template <class Take>
@@ -276,7 +239,7 @@ std::span<const double> BestResponse::solve(std::uint32_t e, std::size_t first, 
     if (up >= high_ && last > first) return chosen_;
     block(e);
     aligned_.clear();
-    if (random_.chance(align_share)) align(e);
+    if (random_.chance(align_share)) add_aligned_places(model_, e, {low_, high_}, aligned_);
     const double down = reach_down(high_);
     if (!place_one(std::max(down, low_ + room_), std::min(up, high_ - room_))) place_many();
     return chosen_;
@@ -439,19 +402,35 @@ double BestResponse::spread(std::uint32_t e, std::size_t i) {
     return best;
 }
 
+double BestResponse::weave(std::uint32_t e, std::size_t first) {
+    aim_at(e, first);
+    add_thread_places(model_, e, {low_, high_}, aligned_);
+    return place_in_middle();
+}
+
 double BestResponse::halve(std::uint32_t e, std::size_t first) {
+    aim_at(e, first);
+    add_aligned_places(model_, e, {low_, high_}, aligned_);
+    return place_in_middle();
+}
+
+void BestResponse::aim_at(std::uint32_t e, std::size_t first) {
     low_ = model_.part_start(e, first);
     high_ = model_.parts(e)[first].end;
     room_ = std::min(least_room, 0.01 * (high_ - low_));
     chosen_.clear();
+    aligned_.clear();
+    model_.count_work(response_work);
     look(e);
+    block(e);
+}
+
+double BestResponse::place_in_middle() {
     const double up = reach_up(low_);
     const double down = reach_down(high_);
     const double edge = 1e-6 * (high_ - low_);
     const double from = std::max(std::min(up, down), low_ + edge);
     const double to = std::min(std::max(up, down), high_ - edge);
-    block(e);
-    align(e);
     if (from < to && place_one(from, to)) return chosen_.front();
     int least = std::numeric_limits<int>::max();
     std::size_t count = 0;

@@ -23,6 +23,9 @@ public:
     /// One point for the part `first`, even if no point makes both halves Delaunay.
     [[nodiscard]] double halve(std::uint32_t e, std::size_t first);
 
+    /// The same, rather where it carries on a straight thread of points over several edges.
+    [[nodiscard]] double weave(std::uint32_t e, std::size_t first);
+
     /// Where point i of edge e lies farthest from all other points and corners that are known to see it, while no part
     /// becomes bad; where it is now, if there is nothing better.
     [[nodiscard]] double spread(std::uint32_t e, std::size_t i);
@@ -66,8 +69,8 @@ private:
     void find_cells();
     [[nodiscard]] int soft_weight(double t) const;
 
-    void align(std::uint32_t e);
-    void align_with_side(const Side& own, const Side& other);
+    void aim_at(std::uint32_t e, std::size_t first);
+    [[nodiscard]] double place_in_middle();
     template <class Take>
     void near_ends(double begin, double end, Take&& take);
     [[nodiscard]] double pick(double low, double high);

@@ -14,6 +14,8 @@ constexpr double most_work = 2e9;
 constexpr int default_effort = 3;
 /// The share of the work in which an edge must be closed; else the rest is closed by borrowing.
 constexpr double patience = 0.25;
+/// More for the search where no edge stayed open for long.
+constexpr double spare_share = 0.75;
 
 }  // namespace
 
@@ -56,9 +58,12 @@ void SplitChooser::set_baseline(std::span<const SplitPoint> splits) {
     search_.set_other(baseline_);
 }
 
+double SplitChooser::default_work() const {
+    return std::clamp(work_per_edge * static_cast<double>(bad_.size()), least_work, most_work);
+}
+
 double SplitChooser::full_work() const {
-    const double full = std::clamp(work_per_edge * static_cast<double>(bad_.size()), least_work, most_work);
-    return std::ldexp(full, options_.effort - default_effort);
+    return std::ldexp(default_work(), options_.effort - default_effort);
 }
 
 void SplitChooser::search(const Context* context) {
@@ -66,9 +71,12 @@ void SplitChooser::search(const Context* context) {
     search_.construct(bad_, static_cast<std::uint64_t>(full));
     if (options_.effort > 0) wait_for_open_edges(full, context);
     if (is_cancelled(context)) return;
+    search_.close_rings(static_cast<std::uint64_t>(0.1 * default_work()));
     search_.close_open(static_cast<std::uint64_t>(full));
-    if (options_.effort > 0) search_.improve(static_cast<std::uint64_t>(full), context);
+    const double left = (1 + spare_share) * full - static_cast<double>(model_.work());
+    if (options_.effort > 0) search_.improve(static_cast<std::uint64_t>(std::max(full, left)), context);
     if (is_cancelled(context)) return;
+    search_.thin_rings(static_cast<std::uint64_t>(0.1 * full));
     search_.spread(static_cast<std::uint64_t>(0.2 * full));
     if (baseline_.empty()) return;
     delmesh::take_better_regions(model_, search_.open(), placed_points(model_), baseline_);

@@ -41,6 +41,7 @@ public:
     bool take_better_regions(std::span<const SplitPoint> truth);
 
 private:
+    [[nodiscard]] double default_work() const;
     [[nodiscard]] double full_work() const;
     void wait_for_open_edges(double work, const Context* context);
     [[nodiscard]] std::uint32_t edge_between(VertexId a, VertexId b);

@@ -94,6 +94,13 @@ void SplitModel::prepare(std::uint32_t e) {
     states_[e].prepared = true;
 }
 
+std::size_t SplitModel::part_at(std::uint32_t e, double at) const {
+    const auto all = parts(e);
+    const auto found =
+        std::lower_bound(all.begin(), all.end(), at, [](const Part& part, double value) { return part.end < value; });
+    return static_cast<std::size_t>(found - all.begin());
+}
+
 // --- transactions ---
 
 void SplitModel::begin() {
@@ -290,7 +297,7 @@ void SplitModel::scan(const Side& side, const Side& other, double a, double b, C
         const Point2 q = p + u * d;
         if (!(q.y > 0)) return;
         const double cot = cot_of(a, b, q);
-        if (cot < best.cot) best = {cot, q, other.edge};
+        if (cot < best.cot) best = {cot, q, other.edge, u};
     };
     if (points.size() <= few) {
         work_ += points.size();

@@ -17,6 +17,7 @@ struct Contact {
     double cot = 0;
     Point2 at;                               ///< in the frame of the side
     std::uint32_t edge = FacetLayout::none;  ///< the edge it lies on; none: a corner of the input
+    double along = 0;                        ///< its place on that edge
 };
 
 /// A part of an edge, from the end of the part before it (or 0) to `end`.
@@ -53,6 +54,8 @@ public:
     [[nodiscard]] double part_start(std::uint32_t e, std::size_t i) const {
         return i == 0 ? 0.0 : pool_[states_[e].first + i - 1].end;
     }
+    /// The index of the part that ends at or after `at`.
+    [[nodiscard]] std::size_t part_at(std::uint32_t e, double at) const;
     /// Replaces the points first ... last-1 of a prepared edge by new ones, in order. Edges with parts that are no
     /// longer Delaunay go onto the list of suspects.
     void cut(std::uint32_t e, std::size_t first, std::size_t last, std::span<const double> points);

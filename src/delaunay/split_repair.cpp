@@ -18,13 +18,6 @@ constexpr double whole_share = 0.7;
 
 }  // namespace
 
-std::size_t SplitRepair::part_at(std::uint32_t e, double at) const {
-    const auto parts = model_.parts(e);
-    const auto found = std::lower_bound(parts.begin(), parts.end(), at,
-                                        [](const Part& part, double value) { return part.end < value; });
-    return static_cast<std::size_t>(found - parts.begin());
-}
-
 void SplitRepair::replace(std::uint32_t e, std::size_t first, std::size_t last) {
     model_.cut(e, first, last, response_.solve(e, first, last));
 }
@@ -124,6 +117,23 @@ bool SplitRepair::run(std::size_t max_points, std::size_t steps, bool last_first
         resolve(e, part);
     }
     return model_.point_count() <= max_points;
+}
+
+bool SplitRepair::weave(std::size_t max_points, std::size_t steps) {
+    for (std::size_t step = 0; model_.suspect_count() > 0;) {
+        const std::size_t i = model_.suspect_count() - 1;
+        const std::uint32_t e = model_.suspect(i);
+        const int bad = model_.first_bad(e);
+        model_.drop_suspect(i);
+        if (bad < 0) continue;
+        if (++step > steps || is_exhausted() || model_.point_count() >= max_points || !model_.is_movable(e))
+            return false;
+        model_.prepare(e);
+        const double at = response_.weave(e, static_cast<std::size_t>(bad));
+        model_.cut(e, static_cast<std::size_t>(bad), static_cast<std::size_t>(bad), {&at, 1});
+        if (model_.first_bad(e) >= 0) model_.add_suspect(e);
+    }
+    return true;
 }
 
 }  // namespace delmesh

@@ -20,15 +20,16 @@ public:
     /// `max_points`. `last_first`: newest suspects first, which draws threads of points across strips; else random.
     bool run(std::size_t max_points, std::size_t steps, bool last_first);
 
+    /// As `run`, but only ever adds points, one at a time, where they carry on straight threads: that closes long thin
+    /// strips in which the places of points depend on each other, by many points.
+    bool weave(std::size_t max_points, std::size_t steps);
+
     /// Moves point i of an edge away from others, as far as that makes nothing bad.
     void spread(std::uint32_t e, std::size_t i);
 
     /// From now on `run` also gives up when the model's work has come this far.
     void set_work_limit(std::uint64_t limit) { work_limit_ = limit; }
     [[nodiscard]] bool is_exhausted() const { return model_.work() >= work_limit_; }
-
-    /// The index of the part that ends at or after `at`.
-    [[nodiscard]] std::size_t part_at(std::uint32_t e, double at) const;
 
 private:
     void resolve(std::uint32_t e, std::size_t part);

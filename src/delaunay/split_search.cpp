@@ -10,7 +10,14 @@ constexpr int first_rounds = 6;
 constexpr std::size_t first_steps = 50;
 constexpr int mend_tries = 6;
 constexpr int spread_passes = 3;
-constexpr int borrow_tries = 3;
+constexpr int shake_tries = 20;
+constexpr int close_tries = 3;
+constexpr std::size_t weave_steps = 25;  ///< for each edge that may borrow instead
+constexpr std::size_t most_weaved = 1024;
+constexpr std::size_t largest_ring = 1024;
+constexpr std::size_t most_threads = 40;
+constexpr std::size_t slide_steps = 60;
+constexpr std::size_t most_slid = 20'000;
 constexpr double open_share = 0.3;
 constexpr double any_move_share = 0.4;
 constexpr std::size_t memory = 512;  ///< tries after which what moves have gained counts half
@@ -29,41 +36,55 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // --- construction ---
 
-/// Tries to make one open edge Delaunay, for a few points more.
-bool SplitSearch::attempt(std::uint32_t e, std::size_t steps, bool clear_first) {
+void SplitSearch::begin_on(std::uint32_t e) {
     model_.begin();
     model_.give_up(e, false);
     model_.add_suspect(e);
+}
+
+/// Ends what `begin_on` began.
+bool SplitSearch::settle(std::uint32_t e, bool closed) {
+    if (closed) {
+        model_.commit();
+    } else {
+        model_.rollback();
+        model_.give_up(e, true);
+    }
+    return closed;
+}
+
+/// Keeps those edges open that are neither Delaunay by now nor get closed.
+template <class Close>
+void SplitSearch::close_each(Close&& close) {
+    std::size_t left = 0;
+    for (const std::uint32_t e : open_) {
+        if (model_.first_bad(e) < 0) {
+            model_.give_up(e, false);
+        } else if (!close(e)) {
+            open_[left++] = e;
+        }
+    }
+    open_.resize(left);
+}
+
+/// Tries to make one open edge Delaunay, for a few points more.
+bool SplitSearch::attempt(std::uint32_t e, std::size_t steps, bool clear_first) {
+    begin_on(e);
     const std::size_t most = model_.point_count() + 10 + steps / 4;
     if (clear_first) {
         take_edges(e, 2 + random_.below(random_.chance(0.5) ? 8 : 40));
         steps += 6 * taken_.size();
         remove_taken();
     }
-    if (repair_.run(most, steps, random_.chance(0.8))) {
-        model_.commit();
-        return true;
-    }
-    model_.rollback();
-    model_.give_up(e, true);
-    return false;
+    return settle(e, repair_.run(most, steps, random_.chance(0.8)));
 }
 
 void SplitSearch::construct(const std::vector<std::uint32_t>& bad_edges, std::uint64_t work) {
     limit_work(work);
     open_ = bad_edges;
     for (const std::uint32_t e : open_) model_.give_up(e, true);
-    for (int round = 0; round < first_rounds && !open_.empty(); ++round) {
-        std::size_t left = 0;
-        for (const std::uint32_t e : open_) {
-            if (model_.first_bad(e) < 0) {
-                model_.give_up(e, false);
-            } else if (!attempt(e, first_steps, round > 0 && random_.chance(0.7))) {
-                open_[left++] = e;
-            }
-        }
-        open_.resize(left);
-    }
+    for (int round = 0; round < first_rounds && !open_.empty(); ++round)
+        close_each([&](std::uint32_t e) { return attempt(e, first_steps, round > 0 && random_.chance(0.7)); });
 }
 
 void SplitSearch::attempt_any_open() {
@@ -115,9 +136,7 @@ void SplitSearch::gather_ball(std::uint32_t e, std::size_t size) {
 /// Takes over the other solution's points on `size` edges around e, then mends what does not fit at the rim.
 bool SplitSearch::borrow(std::uint32_t e, std::size_t size) {
     gather_ball(e, size);
-    model_.begin();
-    model_.give_up(e, false);
-    model_.add_suspect(e);
+    begin_on(e);
     for (const std::uint32_t edge : edges_) {
         borrowed_.clear();
         for (const PlacedPoint& point : others_on(edge)) borrowed_.push_back(point.at);
@@ -125,35 +144,94 @@ bool SplitSearch::borrow(std::uint32_t e, std::size_t size) {
         model_.cut(edge, 0, model_.point_count(edge), borrowed_);
     }
     const std::size_t most = model_.point_count() + 20 + edges_.size();
-    if (repair_.run(most, 50 + 4 * edges_.size(), random_.chance(0.5))) {
-        model_.commit();
-        return true;
+    return settle(e, repair_.run(most, 50 + 4 * edges_.size(), random_.chance(0.5)));
+}
+
+/// Adds points until all is Delaunay again.
+bool SplitSearch::weave(std::uint32_t e, std::size_t steps, bool clear_first) {
+    begin_on(e);
+    if (clear_first) {
+        take_edges(e, 2 + random_.below(40));
+        remove_taken();
     }
-    model_.rollback();
-    model_.give_up(e, true);
-    return false;
+    return settle(e, repair_.weave(model_.point_count() + steps, steps));
 }
 
 void SplitSearch::close_open(std::uint64_t work) {
-    if (other_.empty()) return;
     limit_work(work);
     for (std::size_t size = 8; !open_.empty() && !repair_.is_exhausted(); size *= 2) {
-        std::size_t left = 0;
-        std::size_t largest = 0;
-        for (const std::uint32_t e : open_) {
-            if (model_.first_bad(e) < 0) {
-                model_.give_up(e, false);
-                continue;
-            }
+        std::size_t largest = other_.empty() && size < most_weaved ? size : 0;
+        close_each([&](std::uint32_t e) {
             bool closed = false;
-            for (int i = 0; i < borrow_tries && !closed && !repair_.is_exhausted(); ++i) closed = borrow(e, size);
-            if (closed) continue;
-            largest = std::max(largest, edges_.size());
-            open_[left++] = e;
-        }
-        open_.resize(left);
+            for (int i = 0; i < close_tries && !closed && !repair_.is_exhausted(); ++i)
+                closed = weave(e, weave_steps * size, i > 0);
+            for (int i = 0; i < close_tries && !closed && !other_.empty() && !repair_.is_exhausted(); ++i) {
+                closed = borrow(e, size);
+                largest = std::max(largest, edges_.size());
+            }
+            return closed;
+        });
         if (largest < size) return;
     }
+}
+
+// --- rings ---
+
+/// Replaces the points of the ring that has been gathered by that many threads. Within a transaction.
+bool SplitSearch::solve_ring(std::size_t threads) {
+    const std::size_t n = ring_.rungs().size();
+    ring_.lay_threads(threads);
+    return slide_.run(slide_steps, most_slid) || repair_.weave(model_.point_count() + n, 4 * n);
+}
+
+void SplitSearch::close_rings(std::uint64_t work) {
+    limit_work(work);
+    close_each([&](std::uint32_t e) {
+        if (!ring_.gather(e, largest_ring)) return false;
+        for (std::size_t threads = 1; threads <= most_threads && !repair_.is_exhausted(); threads += 1 + threads / 3) {
+            begin_on(e);
+            if (settle(e, solve_ring(threads))) return true;
+        }
+        return false;
+    });
+}
+
+void SplitSearch::thin_rings(std::uint64_t work) {
+    limit_work(work);
+    std::vector<bool> done(model_.edge_count());
+    for (std::uint32_t e = 0; e < done.size() && !repair_.is_exhausted(); ++e) {
+        if (done[e] || model_.point_count(e) == 0 || !model_.is_movable(e)) continue;
+        if (!ring_.gather(e, largest_ring)) continue;
+        for (const Rung& rung : ring_.rungs())
+            if (rung.edge < done.size()) done[rung.edge] = true;
+        const std::size_t before = model_.point_count();
+        const std::size_t most = ring_.point_count() / ring_.rungs().size();
+        bool solved = false;
+        for (std::size_t threads = 1; threads <= most && !solved; threads += 1 + threads / 3) {
+            model_.begin();
+            solved = solve_ring(threads) && model_.point_count() < before;
+            solved ? model_.commit() : model_.rollback();
+        }
+    }
+}
+
+// --- mending ---
+
+/// Puts the points around an edge elsewhere.
+bool SplitSearch::shake(std::uint32_t e) {
+    for (int i = 0; i < shake_tries && !repair_.is_exhausted(); ++i) {
+        take_edges(e, std::size_t{4} << (i / 4));
+        if (taken_.empty()) continue;
+        const std::size_t most = model_.point_count() + 2 + taken_.size() / 2;
+        model_.begin();
+        remove_taken();
+        if (repair_.run(most, 6 * taken_.size() + 20, random_.chance(0.5))) {
+            model_.commit();
+            return true;
+        }
+        model_.rollback();
+    }
+    return false;
 }
 
 bool SplitSearch::mend(const std::vector<std::uint32_t>& edges, std::uint64_t work) {
@@ -164,7 +242,12 @@ bool SplitSearch::mend(const std::vector<std::uint32_t>& edges, std::uint64_t wo
         model_.distrust(e);
     }
     for (const std::uint32_t e : edges) {
-        if (model_.is_given_up(e) || model_.first_bad(e) < 0) continue;
+        if (model_.is_given_up(e)) continue;
+        if (model_.first_bad(e) < 0) {
+            // The model can not tell what is wrong.
+            changed = shake(e) || changed;
+            continue;
+        }
         bool closed = false;
         for (int i = 0; i < mend_tries && !closed && !repair_.is_exhausted(); ++i)
             closed = attempt(e, first_steps << (i / 2), i > 0);
@@ -261,7 +344,7 @@ void SplitSearch::try_once(std::uint32_t edge) {
     remove_taken();
     if (random_.chance(0.5))
         for (std::size_t i = model_.suspect_count(); i > 1; --i) model_.swap_suspects(i - 1, random_.below(i));
-    if (repair_.run(before, steps, random_.chance(0.5))) {
+    if (move.weaves ? repair_.weave(before, 2 * steps) : repair_.run(before, steps, random_.chance(0.5))) {
         model_.commit();
         move.gain += static_cast<double>(before - model_.point_count());
     } else {
@@ -305,7 +388,7 @@ void SplitSearch::add_nearest(const Side& from, Point2 at) {
         std::size_t i = 0;
         if (n > 1) {
             const double t = dot(at - side.start, side.x_row);
-            i = std::min(repair_.part_at(side.edge, t), n - 1);
+            i = std::min(model_.part_at(side.edge, t), n - 1);
             if (i > 0 && t - parts[i - 1].end < parts[i].end - t) --i;
         }
         const Target target{side.edge, parts[i].end};
@@ -322,7 +405,7 @@ void SplitSearch::add_nearest(const Side& from, Point2 at) {
 }
 
 void SplitSearch::add_neighbours(const Target& of) {
-    const std::size_t i = repair_.part_at(of.edge, of.at);
+    const std::size_t i = model_.part_at(of.edge, of.at);
     const auto parts = model_.parts(of.edge);
     if (i > 0) nearby_.push_back({of.edge, parts[i - 1].end});
     if (i + 2 < parts.size()) nearby_.push_back({of.edge, parts[i + 1].end});
@@ -406,7 +489,7 @@ void SplitSearch::remove_taken() {
     for (const Target& t : taken_) {
         if (!model_.is_movable(t.edge)) continue;
         model_.prepare(t.edge);
-        const std::size_t i = repair_.part_at(t.edge, t.at);
+        const std::size_t i = model_.part_at(t.edge, t.at);
         if (i < model_.point_count(t.edge) && model_.parts(t.edge)[i].end == t.at) model_.cut(t.edge, i, i + 1, {});
     }
 }

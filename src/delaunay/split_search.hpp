@@ -5,6 +5,8 @@
 #include "delaunay/split_model.hpp"
 #include "delaunay/split_regions.hpp"
 #include "delaunay/split_repair.hpp"
+#include "delaunay/split_ring.hpp"
+#include "delaunay/split_slide.hpp"
 #include "delmesh/base/context.hpp"
 
 #include <array>
@@ -16,16 +18,27 @@ namespace delmesh {
 
 class SplitSearch {
 public:
-    SplitSearch(SplitModel& model, std::uint64_t seed) : model_(model), random_(seed), repair_(model, random_) {}
+    SplitSearch(SplitModel& model, std::uint64_t seed)
+        : model_(model),
+          random_(seed),
+          repair_(model, random_),
+          slide_(model),
+          ring_(model) {}
 
     /// Tries to make these edges Delaunay, in several rounds of short attempts. What is left stays `open`: such edges
     /// are not Delaunay, and nothing tries to mend them but further attempts.
     void construct(const std::vector<std::uint32_t>& bad_edges, std::uint64_t work);
 
+    /// Solves the rings of long thin facets that open edges lie in.
+    void close_rings(std::uint64_t work);
+    /// Solves rings that have points with fewer ones, where that is possible.
+    void thin_rings(std::uint64_t work);
+
     /// A solution to borrow from, sorted; must outlive the search.
     void set_other(std::span<const PlacedPoint> other) { other_ = other; }
 
-    /// Takes the other solution's points around each open edge, around as few edges as possible, and repairs the rim.
+    /// Weaves points around each open edge, or takes the other solution's points around it and repairs the rim,
+    /// whichever takes fewer points.
     void close_open(std::uint64_t work);
 
     /// Lets these edges keep a distance from ties, and repairs them. False if nothing has changed.
@@ -52,13 +65,21 @@ private:
         Kind kind = Kind::cluster;
         std::size_t least = 1;
         std::size_t most = 1;
+        bool weaves = false;
         double gain = 1;
         double work = 1;
     };
 
     void limit_work(std::uint64_t more) { repair_.set_work_limit(model_.work() + more); }
     bool attempt(std::uint32_t e, std::size_t steps, bool clear_first);
+    template <class Close>
+    void close_each(Close&& close);
+    void begin_on(std::uint32_t e);
+    bool settle(std::uint32_t e, bool closed);
+    bool weave(std::uint32_t e, std::size_t steps, bool clear_first);
     bool borrow(std::uint32_t e, std::size_t size);
+    bool solve_ring(std::size_t threads);
+    bool shake(std::uint32_t e);
     void gather_ball(std::uint32_t e, std::size_t size);
     [[nodiscard]] std::span<const PlacedPoint> others_on(std::uint32_t e) const;
     void attempt_any_open();
@@ -81,7 +102,9 @@ private:
     SplitModel& model_;
     Random random_;
     SplitRepair repair_;
-    std::array<Move, 9> moves_{{
+    SplitSlide slide_;
+    SplitRing ring_;
+    std::array<Move, 10> moves_{{
         {Kind::cluster, 1, 1},
         {Kind::cluster, 2, 2},
         {Kind::cluster, 3, 7},
@@ -89,6 +112,7 @@ private:
         {Kind::edges, 2, 7},
         {Kind::edges, 8, 20},
         {Kind::edges, 21, 50},
+        {Kind::edges, 4, 40, true},
         {Kind::thread, 2, 13},
         {Kind::thread, 14, 100},
     }};

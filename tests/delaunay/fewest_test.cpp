@@ -1,6 +1,7 @@
 // Placement fewest: the promises of mode preserve, and never more splits than the shells.
 
 #include "delaunay/preserve_check.hpp"
+#include "delaunay/random.hpp"
 #include "delmesh/base/error.hpp"
 #include "delmesh/delaunay/remesh.hpp"
 #include "delmesh/mesh/shapes.hpp"
@@ -9,7 +10,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdint>
 #include <cstring>
+#include <utility>
 
 namespace delmesh {
 namespace {
@@ -79,6 +83,46 @@ TEST(Effort, NeverAddsPoints) {
         EXPECT_EQ(check_delaunay(mesh), "");
         EXPECT_LE(report.splits, last);
         last = report.splits;
+    }
+}
+
+/// A long thin tube whose sides have very different widths, with uneven ends: triangles as thin as one to some
+/// thousands. Points on one long edge make points on the next one necessary, all around, and few places fit.
+Mesh make_tube(std::uint64_t seed) {
+    constexpr std::uint32_t sides = 8;
+    constexpr double radius = 0.003;
+    Random random(seed);
+    std::array<double, sides> angle{};
+    double sum = 0;
+    for (double& a : angle) {
+        a = sum;
+        sum += random.chance(0.5) ? 0.05 + 0.1 * random.uniform() : 0.3 + 0.7 * random.uniform();
+    }
+    PolygonSoup soup;
+    for (const double z : {0.0, 1.0})
+        for (const double a : angle) {
+            // A rational circle, as sines differ in their last bits between systems.
+            const double half = 4 * (a / sum) - 2;
+            const double scale = radius / (1 + half * half);
+            soup.points.push_back(
+                {scale * (1 - half * half), scale * 2 * half, z + 0.3 * radius * (2 * random.uniform() - 1)});
+        }
+    for (std::uint32_t i = 0; i < sides; ++i) {
+        const std::uint32_t j = (i + 1) % sides;
+        for (const std::uint32_t v : {i, j, sides + i, j, sides + j, sides + i}) soup.corners.push_back(v);
+    }
+    return Mesh(std::move(soup));
+}
+
+TEST(ThinTubes, TakeAFewThreadsAroundAndNotThousandsOfShells) {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+        const Mesh before = make_tube(seed);
+        Mesh mesh = before;
+        const RemeshReport report = make_delaunay(mesh, options_of(SplitPlacement::fewest, 0));
+        ASSERT_EQ(report.stop, StopReason::done);
+        EXPECT_EQ(check_delaunay(mesh), "");
+        EXPECT_EQ(check_preserved(before, mesh, report.provenance, 1e-13), "");
+        EXPECT_LT(10 * report.splits, report.splits_by_shells);
     }
 }
 
