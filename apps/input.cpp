@@ -1,7 +1,7 @@
 #include "input.hpp"
 
 #include "delmesh/base/error.hpp"
-#include "delmesh/io/read.hpp"
+#include "delmesh/mesh/rounding.hpp"
 #include "option_binding.hpp"
 
 #include <fmt/format.h>
@@ -26,13 +26,48 @@ void InputOptions::bind(CLI::App& command) {
     bind_options(command, repair_options);
 }
 
+PolygonSoup load_and_mend(const std::string& path, const RepairOptions& options, std::optional<Precision> rounding,
+                          const Console& console, Mended& mended) {
+    PolygonSoup soup = read_soup(input_path(path), {{}, &mended.damage});
+    if (rounding == Precision::float32) round_to_float(soup);
+    mended.report = repair(soup, options, console.context());
+    return soup;
+}
+
+namespace {
+
+/// True if --repair would find faces to go on with.
+bool can_be_read_in_part(const std::string& path) {
+    if (path == "-") return false;
+    FileDamage damage;
+    try {
+        (void)read_soup(path, {{}, &damage});
+    } catch (const Error&) {
+        return false;  // the first error is the one to tell
+    }
+    return true;
+}
+
+PolygonSoup read_whole(const std::string& path) {
+    try {
+        return read_soup(input_path(path));
+    } catch (const Error& error) {
+        const bool is_damage = error.code() == ErrorCode::file_format || error.code() == ErrorCode::index_out_of_range;
+        if (!is_damage || !can_be_read_in_part(path)) throw;
+        throw Error(error.code(), std::string(error.what()) + "; with --repair what can be read is used");
+    }
+}
+
+}  // namespace
+
 PolygonSoup load_soup(const std::string& path, const InputOptions& options, const Console& console,
-                      std::optional<RepairReport>* report) {
-    PolygonSoup soup = read_soup(input_path(path));
-    if (!options.repair) return soup;
-    RepairReport found = repair(soup, options.repair_options, console.context());
-    if (found.changed && !console.is_quiet()) fmt::print(stderr, "{}: repaired\n{}\n", path, findings_text(found));
-    if (report != nullptr) *report = std::move(found);
+                      std::optional<Mended>* mended) {
+    if (!options.repair) return read_whole(path);
+    Mended found;
+    PolygonSoup soup = load_and_mend(path, options.repair_options, {}, console, found);
+    if (found.changed() && !console.is_quiet())
+        fmt::print(stderr, "{}: repaired\n{}\n", path, findings_text(path, found));
+    if (mended != nullptr) *mended = std::move(found);
     return soup;
 }
 
@@ -40,19 +75,28 @@ Mesh build_mesh(const std::string& path, PolygonSoup soup) {
     return naming(path, [&] { return Mesh(std::move(soup)); });
 }
 
-Json to_json(const RepairReport& report) {
-    Json json{{"changed", report.changed}, {"findings", Json::array()}};
-    report.visit([&json](std::string_view name, std::size_t count, const std::vector<std::size_t>& places,
-                         std::string_view places_are, const std::string& sentence) {
+Json to_json(const Mended& mended) {
+    Json json{{"changed", mended.changed()}, {"findings", Json::array()}};
+    if (mended.damage.count > 0) {
+        json["damaged"] = {{"count", mended.damage.count}, {"sentences", mended.damage.sentences}};
+    }
+    mended.report.visit([&json](std::string_view name, std::size_t count, const std::vector<std::size_t>& places,
+                                std::string_view places_are, const std::string& sentence) {
         json["findings"].push_back(
             {{"kind", name}, {"count", count}, {"places", places}, {"places_are", places_are}, {"sentence", sentence}});
     });
     return json;
 }
 
-std::string findings_text(const RepairReport& report) {
+std::string findings_text(const std::string& path, const Mended& mended) {
+    const FileDamage& damage = mended.damage;
     std::string text;
-    for (const Finding& finding : report.findings) text += (text.empty() ? "  " : "\n  ") + sentence(finding);
+    const auto add = [&text](const std::string& line) { text += (text.empty() ? "  " : "\n  ") + line; };
+    for (const std::string& sentence : damage.sentences)
+        add("left out: " + sentence.substr(sentence.starts_with(path + ": ") ? path.size() + 2 : 0));
+    if (damage.count > damage.sentences.size())
+        add(fmt::format("left out: {} more places", with_commas(damage.count - damage.sentences.size())));
+    for (const Finding& finding : mended.report.findings) add(sentence(finding));
     return text;
 }
 

@@ -3,6 +3,7 @@
 
 #include "console.hpp"
 #include "delmesh/base/error.hpp"
+#include "delmesh/io/read.hpp"
 #include "delmesh/mesh/mesh.hpp"
 #include "delmesh/repair/repair.hpp"
 
@@ -24,9 +25,21 @@ struct InputOptions {
     void bind(CLI::App& command);
 };
 
+/// What was wrong with a file, and with the mesh in it.
+struct Mended {
+    FileDamage damage;
+    RepairReport report;
+
+    [[nodiscard]] bool changed() const { return damage.count > 0 || report.changed; }
+};
+
+/// Reads a file as far as it can be read and makes a manifold of it.
+[[nodiscard]] PolygonSoup load_and_mend(const std::string& path, const RepairOptions& options,
+                                        std::optional<Precision> rounding, const Console& console, Mended& mended);
+
 /// Reads a file. With --repair it becomes a manifold, and what was wrong is told on standard error.
 [[nodiscard]] PolygonSoup load_soup(const std::string& path, const InputOptions& options, const Console& console,
-                                    std::optional<RepairReport>* report = nullptr);
+                                    std::optional<Mended>* mended = nullptr);
 
 /// Calls, and puts the file's name in front of what an error says about the mesh.
 template <class Call>
@@ -42,9 +55,9 @@ auto naming(const std::string& path, Call&& call) {
 /// Builds the mesh; errors name the file.
 [[nodiscard]] Mesh build_mesh(const std::string& path, PolygonSoup soup);
 
-[[nodiscard]] Json to_json(const RepairReport& report);
+[[nodiscard]] Json to_json(const Mended& mended);
 
-/// A line for each kind of defect.
-[[nodiscard]] std::string findings_text(const RepairReport& report);
+/// A line for each place that could not be read and for each kind of defect.
+[[nodiscard]] std::string findings_text(const std::string& path, const Mended& mended);
 
 }  // namespace delmesh::app

@@ -37,7 +37,7 @@ struct Outcome {
     Measured after;
     RemeshReport report;
     std::optional<GrowthEstimate> growth;
-    std::optional<RepairReport> repair;
+    std::optional<Mended> repair;
     double rounded_by = 0;
     PlacesReport places;
     std::vector<std::size_t> witness;

@@ -1,9 +1,7 @@
 // delmesh repair IN OUT: what was wrong, what was changed.
 
 #include "commands.hpp"
-#include "delmesh/io/read.hpp"
 #include "delmesh/io/write.hpp"
-#include "delmesh/mesh/rounding.hpp"
 #include "exit_code.hpp"
 #include "input.hpp"
 #include "option_binding.hpp"
@@ -24,21 +22,22 @@ struct RepairArguments {
 
 int run_repair(const RepairArguments& arguments, Console& console) {
     const WriteOptions options = arguments.output.write_options();
-    PolygonSoup soup = read_soup(input_path(arguments.input));
-    if (arguments.output.precision() == Precision::float32) round_to_float(soup);
-    const RepairReport report = repair(soup, arguments.options, console.context());
-    if (report.cancelled) return console.interrupted();
+    Mended mended;
+    const PolygonSoup soup =
+        load_and_mend(arguments.input, arguments.options, arguments.output.precision(), console, mended);
+    if (mended.report.cancelled) return console.interrupted();
     write_soup(output_path(arguments.output.path), soup, options);
     Json json{{"input", arguments.input},
               {"output", arguments.output.path},
               {"vertices", soup.points.size()},
               {"faces", soup.face_count()}};
-    json.update(to_json(report));
+    json.update(to_json(mended));
     json["options"] = options_to_json(arguments.options);
     json["peak_memory_bytes"] = peak_memory_bytes();
     if (console.wants_json()) console.print(json);
-    console.tell(report.changed ? fmt::format("{}: repaired\n{}", arguments.input, findings_text(report))
-                                : fmt::format("{}: nothing was wrong", arguments.input));
+    console.tell(mended.changed()
+                     ? fmt::format("{}: repaired\n{}", arguments.input, findings_text(arguments.input, mended))
+                     : fmt::format("{}: nothing was wrong", arguments.input));
     console.say(fmt::format("wrote {}: {} vertices, {} faces", arguments.output.path, with_commas(soup.points.size()),
                             with_commas(soup.face_count())));
     return exit_done;

@@ -41,7 +41,7 @@ struct Level {
 
 struct Outcome {
     Measured before;
-    std::optional<RepairReport> repair;
+    std::optional<Mended> repair;
     double rounded_by = 0;
     std::vector<Level> levels;
     SimplifyReport report;

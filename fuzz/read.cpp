@@ -121,14 +121,24 @@ std::vector<std::string> seeds() {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace delmesh;
-    try {
-        const std::string input = fuzz::in_package(std::string(reinterpret_cast<const char*>(data), size));
-        fuzz::check(parse_soup(std::as_bytes(std::span(input)), "input", {format_from_name(fuzz::format_name)}));
-    } catch (const Error& error) {
-        const std::string message = error.what();
-        fuzz::require(message.starts_with("input: "), "messages name the file", message);
-        fuzz::require(message.find_first_of("\r\n") == message.npos && message.size() < 300, "messages are one line",
-                      message);
-    }
+    const std::string input = fuzz::in_package(std::string(reinterpret_cast<const char*>(data), size));
+    const auto error_of = [&input](FileDamage* damage) {
+        try {
+            fuzz::check(
+                parse_soup(std::as_bytes(std::span(input)), "input", {format_from_name(fuzz::format_name), damage}));
+        } catch (const Error& error) {
+            const std::string message = error.what();
+            fuzz::require(message.starts_with("input: "), "messages name the file", message);
+            fuzz::require(message.find_first_of("\r\n") == message.npos && message.size() < 300,
+                          "messages are one line", message);
+            return message;
+        }
+        return std::string();
+    };
+    FileDamage damage;
+    const std::string error = error_of(nullptr);
+    const std::string error_in_part = error_of(&damage);
+    const std::string& first = damage.count > 0 ? damage.sentences.front() : error_in_part;
+    fuzz::require(first == error, "what is damaged is an error, and the same one first", first + " / " + error);
     return 0;
 }

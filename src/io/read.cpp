@@ -16,6 +16,26 @@ void skip_byte_order_mark(Input& input) {
     if (input.view().starts_with("\xef\xbb\xbf")) input.skip(3);
 }
 
+void read_format(Format format, Input& input, SoupBuilder& builder, const std::filesystem::path& folder) {
+    switch (format) {
+        case Format::ply:
+            return read_ply(input, builder);
+        case Format::obj:
+            return read_obj(input, builder);
+        case Format::off:
+            return read_off(input, builder);
+        case Format::stl:
+            return read_stl(input, builder);
+        case Format::gltf:
+            builder.soup = read_gltf(input, folder);
+            return;
+        case Format::three_mf:
+            builder.soup = read_3mf(input);
+            return;
+    }
+    throw Error(ErrorCode::unsupported_format, input.name() + ": this format is not read");
+}
+
 }  // namespace
 
 PolygonSoup read_input(Input& input, std::optional<Format> hint, const ReadOptions& options,
@@ -29,21 +49,14 @@ PolygonSoup read_input(Input& input, std::optional<Format> hint, const ReadOptio
             ErrorCode::unsupported_format,
             input.name() + ": expected PLY, OBJ, OFF, STL, glTF or 3MF, found none of them by content or extension");
     }
-    switch (*format) {
-        case Format::ply:
-            return read_ply(input);
-        case Format::obj:
-            return read_obj(input);
-        case Format::off:
-            return read_off(input);
-        case Format::stl:
-            return read_stl(input);
-        case Format::gltf:
-            return read_gltf(input, folder);
-        case Format::three_mf:
-            return read_3mf(input);
+    SoupBuilder builder(options.damage);
+    builder.salvage.attempt([&] { read_format(*format, input, builder, folder); });
+    if (builder.salvage.found_damage()) {
+        builder.leave_out_face();
+        builder.leave_out_dangling();
+        if (builder.soup.face_count() == 0) throw Error(ErrorCode::file_format, builder.salvage.first());
     }
-    throw Error(ErrorCode::unsupported_format, input.name() + ": this format is not read");
+    return std::move(builder.soup);
 }
 
 namespace {

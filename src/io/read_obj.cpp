@@ -11,24 +11,24 @@ namespace {
 /// Vertices, faces and lines; everything else (normals, textures, groups, materials, curves) is passed over.
 class ObjReader {
 public:
-    explicit ObjReader(Input& input) : scanner_(input, {'#', true}) {}
+    ObjReader(Input& input, SoupBuilder& builder) : scanner_(input, {'#', true}), builder_(builder) {}
 
-    PolygonSoup read() {
+    void read() {
+        Salvage& salvage = builder_.salvage;
         while (scanner_.next_line()) {
             const std::string_view keyword = scanner_.word();
             if (keyword == "v") {
-                read_vertex();
+                if (!salvage.attempt([this] { read_vertex(); })) builder_.add_missing_point();
             } else if (keyword == "f") {
-                read_face();
+                if (!salvage.attempt([this] { read_face(); })) builder_.leave_out_face();
             } else if (keyword == "l") {
-                read_line();
+                salvage.attempt([this] { read_line(); });
             } else if (!keyword.empty()) {
                 others_ = true;
             }
         }
-        check_forward_references();
+        salvage.attempt([this] { check_forward_references(); });
         if (others_ && soup().points.empty()) scanner_.fail("expected lines 'v X Y Z' before here, found none");
-        return std::move(builder_.soup);
     }
 
 private:
@@ -101,7 +101,7 @@ private:
     }
 
     TextScanner scanner_;
-    SoupBuilder builder_;
+    SoupBuilder& builder_;
     std::int64_t largest_forward_ = -1;
     std::uint64_t forward_line_ = 0;
     bool others_ = false;
@@ -109,8 +109,8 @@ private:
 
 }  // namespace
 
-PolygonSoup read_obj(Input& input) {
-    return ObjReader(input).read();
+void read_obj(Input& input, SoupBuilder& builder) {
+    ObjReader(input, builder).read();
 }
 
 }  // namespace delmesh::io

@@ -30,9 +30,9 @@ namespace {
 /// last of them (normals, colours) is not looked at.
 class OffReader {
 public:
-    explicit OffReader(Input& input) : input_(input), scanner_(input, {'#', false}) {}
+    OffReader(Input& input, SoupBuilder& builder) : input_(input), scanner_(input, {'#', false}), builder_(builder) {}
 
-    PolygonSoup read() {
+    void read() {
         if (read_keyword()) {
             scanner_.release();
             read_off_binary(input_, kind_, builder_);
@@ -41,7 +41,6 @@ public:
             read_vertices();
             read_faces();
         }
-        return std::move(builder_.soup);
     }
 
 private:
@@ -85,14 +84,17 @@ private:
         points.reserve(input_.plausible(points_, 2));
         for (std::uint64_t v = 0; v < points_; ++v) {
             begin_record("vertex", v, points_);
-            Vec3 point;
-            for (std::uint64_t i = 0; i < dimension_; ++i) {
-                const double coordinate = read_number();
-                if (i < 3) point[static_cast<int>(i)] = coordinate;
-            }
-            if (kind_.homogeneous) point = divide(point, read_number());
-            points.push_back(point);
+            if (!builder_.salvage.attempt([&] { points.push_back(read_point()); })) builder_.add_missing_point();
         }
+    }
+
+    Vec3 read_point() {
+        Vec3 point;
+        for (std::uint64_t i = 0; i < dimension_; ++i) {
+            const double coordinate = read_number();
+            if (i < 3) point[static_cast<int>(i)] = coordinate;
+        }
+        return kind_.homogeneous ? divide(point, read_number()) : point;
     }
 
     Vec3 divide(const Vec3& point, double by) {
@@ -104,10 +106,14 @@ private:
         builder_.soup.corners.reserve(input_.plausible(3 * faces_, 2));
         for (std::uint64_t f = 0; f < faces_; ++f) {
             begin_record("face", f, faces_);
-            for (std::uint64_t n = read_count("the number of vertices of a face"); n > 0; --n)
-                builder_.add_corner(read_index());
-            builder_.end_face();
+            if (!builder_.salvage.attempt([this] { read_face(); })) builder_.leave_out_face();
         }
+    }
+
+    void read_face() {
+        for (std::uint64_t n = read_count("the number of vertices of a face"); n > 0; --n)
+            builder_.add_corner(read_index());
+        builder_.end_face();
     }
 
     void begin_record(std::string_view what, std::uint64_t index, std::uint64_t count) {
@@ -148,7 +154,7 @@ private:
 
     Input& input_;
     TextScanner scanner_;
-    SoupBuilder builder_;
+    SoupBuilder& builder_;
     OffKind kind_;
     std::uint64_t dimension_ = 3;
     std::uint64_t points_ = 0;
@@ -158,8 +164,8 @@ private:
 
 }  // namespace
 
-PolygonSoup read_off(Input& input) {
-    return OffReader(input).read();
+void read_off(Input& input, SoupBuilder& builder) {
+    OffReader(input, builder).read();
 }
 
 }  // namespace delmesh::io

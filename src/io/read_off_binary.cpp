@@ -122,18 +122,19 @@ private:
 
 struct Attempt {
     bool fits = false;
+    PolygonSoup soup;
     std::string problem;
     std::size_t position = 0;
     ErrorCode code = ErrorCode::file_format;
 };
 
 template <std::endian order, bool face_colours>
-Attempt attempt(std::string_view data, const OffKind& kind, SoupBuilder& result) {
+Attempt attempt(std::string_view data, const OffKind& kind) {
     BinaryOff<order, face_colours> reader(data, kind);
     SoupBuilder builder;
     const bool fits = reader.read(builder);
-    if (fits) result = std::move(builder);
-    return {fits, reader.problem(), reader.position(), reader.code()};
+    builder.leave_out_face();
+    return {fits, std::move(builder.soup), reader.problem(), reader.position(), reader.code()};
 }
 
 }  // namespace
@@ -145,14 +146,16 @@ void read_off_binary(Input& input, const OffKind& kind, SoupBuilder& builder) {
     const std::array attempts{attempt<big, true>, attempt<little, false>, attempt<big, false>, attempt<little, true>};
     Attempt furthest;
     for (const auto& read : attempts) {
-        Attempt result = read(input.view(), kind, builder);
-        if (result.fits) {
-            // A quotient of floats need not be a float.
-            builder.soup.stored = kind.homogeneous ? Precision::float64 : Precision::float32;
-            return;
-        }
-        if (furthest.problem.empty() || result.position > furthest.position) furthest = std::move(result);
+        Attempt result = read(input.view(), kind);
+        if (result.fits || furthest.problem.empty() || result.position > furthest.position)
+            furthest = std::move(result);
+        if (furthest.fits) break;
     }
+    builder.soup = std::move(furthest.soup);
+    builder.end_triangles();
+    // A quotient of floats need not be a float.
+    builder.soup.stored = kind.homogeneous ? Precision::float64 : Precision::float32;
+    if (furthest.fits) return;
     input.fail_at(base + furthest.position, furthest.problem, furthest.code);
 }
 

@@ -28,13 +28,12 @@ void StripBuilder::add(std::uint32_t vertex) {
     last_[1] = vertex;
 }
 
-PolygonSoup read_ply(Input& input) {
+void read_ply(Input& input, SoupBuilder& builder) {
     input.ensure(5);
     const std::string_view start = input.view();
     const bool old_mac = start.size() > 4 && start[3] == '\r' && start[4] != '\n';
     TextScanner scanner(input, {}, old_mac ? '\r' : '\n');
     const PlyHeader header = read_ply_header(scanner);
-    SoupBuilder builder;
     builder.soup.stored = precision_of(header);
     if (header.encoding == PlyEncoding::ascii) {
         read_ply_ascii(scanner, input, header, builder);
@@ -42,7 +41,6 @@ PolygonSoup read_ply(Input& input) {
         scanner.release();
         read_ply_binary(input, header, builder);
     }
-    return std::move(builder.soup);
 }
 
 }  // namespace delmesh::io

@@ -26,16 +26,21 @@ public:
         for (const int axis : {0, 1, 2}) axis_of[element.find(std::string(1, "xyz"[axis]))] = axis;
         for (std::uint64_t v = 0; v < element.count; ++v) {
             begin_record(element, v);
-            Vec3 point;
-            for (std::size_t i = 0; i < element.properties.size(); ++i) {
-                if (axis_of[i] >= 0) {
-                    point[axis_of[i]] = read_coordinate(element.properties[i].type);
-                } else {
-                    skip_property(element.properties[i]);
-                }
-            }
-            points.push_back(point);
+            const bool whole = builder_.salvage.attempt([&] { points.push_back(read_point(element, axis_of)); });
+            if (!whole) builder_.add_missing_point();
         }
+    }
+
+    Vec3 read_point(const PlyElement& element, const std::vector<int>& axis_of) {
+        Vec3 point;
+        for (std::size_t i = 0; i < element.properties.size(); ++i) {
+            if (axis_of[i] >= 0) {
+                point[axis_of[i]] = read_coordinate(element.properties[i].type);
+            } else {
+                skip_property(element.properties[i]);
+            }
+        }
+        return point;
     }
 
     /// A property of 32 bits holds floats, also where it is written with more digits.
@@ -54,28 +59,36 @@ public:
         builder_.soup.corners.reserve(input_.plausible(3 * element.count, 2));
         for (std::uint64_t f = 0; f < element.count; ++f) {
             begin_record(element, f);
-            for_record(element, list, [&] {
-                const std::int64_t vertex = read_index();
-                if (vertex < 0) fail_index(vertex);
-                builder_.add_corner(static_cast<std::uint32_t>(vertex));
-            });
-            builder_.end_face();
+            if (!builder_.salvage.attempt([&] { read_face(element, list); })) builder_.leave_out_face();
         }
+    }
+
+    void read_face(const PlyElement& element, std::size_t list) {
+        for_record(element, list, [&] {
+            const std::int64_t vertex = read_index();
+            if (vertex < 0) fail_index(vertex);
+            builder_.add_corner(static_cast<std::uint32_t>(vertex));
+        });
+        builder_.end_face();
     }
 
     void read_strips(const PlyElement& element, std::size_t list) {
         for (std::uint64_t s = 0; s < element.count; ++s) {
             begin_record(element, s);
-            StripBuilder strip(builder_);
-            for_record(element, list, [&] {
-                const std::int64_t vertex = read_index();
-                if (vertex < 0) {
-                    strip.restart();
-                } else {
-                    strip.add(static_cast<std::uint32_t>(vertex));
-                }
-            });
+            builder_.salvage.attempt([&] { read_strip(element, list); });
         }
+    }
+
+    void read_strip(const PlyElement& element, std::size_t list) {
+        StripBuilder strip(builder_);
+        for_record(element, list, [&] {
+            const std::int64_t vertex = read_index();
+            if (vertex < 0) {
+                strip.restart();
+            } else {
+                strip.add(static_cast<std::uint32_t>(vertex));
+            }
+        });
     }
 
     void skip_records(const PlyElement& element) {

@@ -65,11 +65,12 @@ public:
         for (std::uint64_t f = 0; f < element.count;) {
             if (usual) f += read_plain_triangles(element.count - f);
             if (f == element.count) break;
+            bool whole = true;
             for_record(element, f, list, [&](std::uint64_t vertex) {
-                check_index(element, f, vertex);
+                if (!is_index(element, f, vertex)) whole = false;
                 builder_.add_corner(static_cast<std::uint32_t>(vertex));
             });
-            builder_.end_face();
+            whole ? builder_.end_face() : builder_.leave_out_face();
             ++f;
         }
     }
@@ -82,8 +83,11 @@ public:
                     strip.restart();
                     return;
                 }
-                check_index(element, s, vertex);
-                strip.add(static_cast<std::uint32_t>(vertex));
+                if (is_index(element, s, vertex)) {
+                    strip.add(static_cast<std::uint32_t>(vertex));
+                } else {
+                    strip.restart();
+                }
             });
         }
     }
@@ -172,12 +176,15 @@ private:
         return static_cast<std::uint64_t>(record - first) / size;
     }
 
-    void check_index(const PlyElement& element, std::uint64_t record, std::uint64_t vertex) {
-        if (vertex < header_.points) return;
-        input_.fail_at(input_.offset(),
-                       fmt::format("expected a vertex index below {} in {} {}, found {}", header_.points,
-                                   element.shown_name(), record, static_cast<std::int64_t>(vertex)),
-                       ErrorCode::index_out_of_range);
+    /// False, or an error, if there is no such vertex.
+    bool is_index(const PlyElement& element, std::uint64_t record, std::uint64_t vertex) {
+        if (vertex < header_.points) return true;
+        return builder_.salvage.attempt([&] {
+            input_.fail_at(input_.offset(),
+                           fmt::format("expected a vertex index below {} in {} {}, found {}", header_.points,
+                                       element.shown_name(), record, static_cast<std::int64_t>(vertex)),
+                           ErrorCode::index_out_of_range);
+        });
     }
 
     // --- records ---

@@ -19,7 +19,7 @@ Vec3 load_point(const char* from) {
     return {load<float, order>(from), load<float, order>(from + 4), load<float, order>(from + 8)};
 }
 
-std::uint64_t read_facet_count(Input& input) {
+std::uint64_t read_facet_count(Input& input, Salvage& salvage) {
     if (input.ensure(header_bytes + 4) < header_bytes + 4) {
         input.fail_at(
             input.offset() + input.available(),
@@ -27,18 +27,21 @@ std::uint64_t read_facet_count(Input& input) {
     }
     input.skip(header_bytes);
     const std::uint64_t count = load<std::uint32_t, std::endian::little>(input.begin());
-    if (const auto left = input.remaining(); left && (*left - 4) / facet_bytes < count) {
-        input.fail(fmt::format("expected the number of facets that follow, found {}, but the file holds {}", count,
-                               (*left - 4) / facet_bytes));
-    }
+    const auto left = input.remaining();
+    const std::uint64_t held = left ? std::min(count, (*left - 4) / facet_bytes) : count;
+    salvage.attempt([&] {
+        if (held == count) return;
+        input.fail(
+            fmt::format("expected the number of facets that follow, found {}, but the file holds {}", count, held));
+    });
     input.skip(4);
-    return count;
+    return held;
 }
 
 /// 50 bytes a facet: normal, three points, two bytes that some writers use for colours.
-PolygonSoup read_binary(Input& input) {
-    const std::uint64_t count = read_facet_count(input);
-    PolygonSoup soup;
+void read_binary(Input& input, SoupBuilder& builder) {
+    const std::uint64_t count = read_facet_count(input, builder.salvage);
+    PolygonSoup& soup = builder.soup;
     soup.stored = Precision::float32;
     soup.corners.reserve(3 * input.plausible(count, facet_bytes));
     PointIndex index(soup.points, input.plausible(count, facet_bytes) / 2 + 2);  // as in a closed surface
@@ -60,10 +63,10 @@ PolygonSoup read_binary(Input& input) {
             for (const std::size_t at : {12, 24, 36}) corners.push_back(load_point(facet + at));
         }
         index.add(corners, soup.corners);
+        builder.end_triangles();
         input.skip(here * facet_bytes);
         done += here;
     }
-    return soup;
 }
 
 bool is_word(std::string_view word, std::string_view keyword) {
@@ -73,26 +76,33 @@ bool is_word(std::string_view word, std::string_view keyword) {
 /// solid NAME { facet normal N N N  outer loop { vertex X Y Z } endloop endfacet } endsolid NAME, any number of times.
 class AsciiStlReader {
 public:
-    explicit AsciiStlReader(Input& input) : scanner_(input, {}), index_(builder_.soup.points) {}
+    AsciiStlReader(Input& input, SoupBuilder& builder)
+        : scanner_(input, {}),
+          builder_(builder),
+          index_(builder_.soup.points) {}
 
-    PolygonSoup read() {
+    void read() {
         bool in_solid = false;
+        bool lost = false;  // in the rest of a facet that could not be read
         while (find_word()) {
             const TextScanner at_word = scanner_;
             const std::string_view word = scanner_.word();
             if (is_word(word, "facet") && in_solid) {
-                read_facet();
+                lost = !builder_.salvage.attempt([this] { read_facet(); });
+                if (lost) builder_.leave_out_face();
                 continue;
             }
             const bool ends = is_word(word, "endsolid");
-            if (!ends && !is_word(word, "solid") && !is_word(word, "color")) {
-                at_word.fail_expected(in_solid ? "'facet' or 'endsolid'" : "'solid'");
+            if (ends || is_word(word, "solid") || is_word(word, "color")) {
+                in_solid = !ends;
+                lost = false;
+            } else if (!lost) {
+                lost = !builder_.salvage.attempt(
+                    [&] { at_word.fail_expected(in_solid ? "'facet' or 'endsolid'" : "'solid'"); });
             }
-            in_solid = !ends;
             scanner_.skip_line();  // a name
         }
         if (in_solid) scanner_.fail_expected("'facet' or 'endsolid'");
-        return std::move(builder_.soup);
     }
 
 private:
@@ -142,14 +152,15 @@ private:
     }
 
     TextScanner scanner_;
-    SoupBuilder builder_;
+    SoupBuilder& builder_;
     PointIndex index_;
 };
 
 }  // namespace
 
-PolygonSoup read_stl(Input& input) {
-    return is_binary_stl(input) ? read_binary(input) : AsciiStlReader(input).read();
+void read_stl(Input& input, SoupBuilder& builder) {
+    if (is_binary_stl(input)) return read_binary(input, builder);
+    AsciiStlReader(input, builder).read();
 }
 
 }  // namespace delmesh::io

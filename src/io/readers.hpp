@@ -4,6 +4,7 @@
 #include "delmesh/io/format.hpp"
 #include "delmesh/io/read.hpp"
 #include "io/input.hpp"
+#include "io/soup_builder.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -20,10 +21,11 @@ namespace delmesh::io {
 /// True if the STL data are binary: many binary files begin with "solid" too, so sizes and zero bytes count.
 [[nodiscard]] bool is_binary_stl(Input& input);
 
-[[nodiscard]] PolygonSoup read_ply(Input& input);
-[[nodiscard]] PolygonSoup read_obj(Input& input);
-[[nodiscard]] PolygonSoup read_off(Input& input);
-[[nodiscard]] PolygonSoup read_stl(Input& input);
+// What has been read stays in the builder if an error is thrown.
+void read_ply(Input& input, SoupBuilder& builder);
+void read_obj(Input& input, SoupBuilder& builder);
+void read_off(Input& input, SoupBuilder& builder);
+void read_stl(Input& input, SoupBuilder& builder);
 /// Buffers in files of their own are looked for in `folder` and below; nowhere if it is empty.
 [[nodiscard]] PolygonSoup read_gltf(Input& input, const std::filesystem::path& folder);
 [[nodiscard]] PolygonSoup read_3mf(Input& input);

@@ -150,6 +150,29 @@ TEST_F(Contract, FlatToleranceIsARuleOrANumberAndItsEffectIsReported) {
         EXPECT_EQ(delmesh(std::string("remesh a.ply b.ply --flat-tolerance ") + wrong).exit_code, 2) << wrong;
 }
 
+TEST_F(Contract, DamagedFilesAreReadInPartOnRequest) {
+    write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 x\n");
+    const test::Ran refused = delmesh("check a.obj");
+    EXPECT_EQ(refused.exit_code, 3);
+    EXPECT_TRUE(refused.tells_one_sentence());
+    EXPECT_NE(refused.err.find("line 5"), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find("--repair"), std::string::npos) << refused.err;
+    const test::Ran mended = delmesh("repair a.obj b.ply --json");
+    EXPECT_EQ(mended.exit_code, 0);
+    EXPECT_EQ(mended.json()["damaged"]["count"], 1);
+    EXPECT_EQ(mended.json()["changed"], true);
+    EXPECT_EQ(mended.json()["faces"], 1);
+    const test::Ran told = delmesh("repair a.obj b.ply");
+    EXPECT_NE((told.out + told.err).find("left out: line 5"), std::string::npos) << told.err;
+    EXPECT_EQ(delmesh("check a.obj --repair").exit_code, 0);
+    EXPECT_EQ(delmesh("remesh a.obj c.ply --repair --json").json()["repair"]["damaged"]["count"], 1);
+    EXPECT_FALSE(delmesh("repair b.ply c.ply --json").json().contains("damaged"));
+    write("none.obj", "v 0 0 0\nf 1 2 x\n");
+    const test::Ran none = delmesh("repair none.obj c.ply");
+    EXPECT_EQ(none.exit_code, 3);
+    EXPECT_TRUE(none.tells_one_sentence());
+}
+
 TEST_F(Contract, InputsThatCanNotBeUsedAre3) {
     write("fan.off", fan);
     write("cut.ply", "ply\nformat ascii 1.0\nelement vertex 3\n");

@@ -59,14 +59,14 @@ std::vector<File> small_files() {
     return files;
 }
 
-/// The bytes must give an error of one line or a soup that holds together, and no piece of memory that is asked for
-/// may be out of proportion to them.
-void expect_no_harm(const std::string& bytes, const std::string& name) {
+/// The bytes must give an error of one line (which is returned) or a soup that holds together, and no piece of memory
+/// that is asked for may be out of proportion to them.
+void expect_no_harm(const std::string& bytes, const std::string& name, FileDamage* damage, std::string& message) {
     constexpr std::size_t fixed = std::size_t{1} << 20;
     constexpr std::size_t bytes_per_byte = 32;
     test::largest_allocation = 0;
     try {
-        PolygonSoup soup = test::parse(bytes, name);
+        PolygonSoup soup = test::parse(bytes, name, {{}, damage});
         const auto exists = [&](std::uint32_t v) { return v < soup.points.size(); };
         ASSERT_TRUE(std::ranges::all_of(soup.corners, exists)) << name;
         for (const auto& line : soup.lines) ASSERT_TRUE(exists(line[0]) && exists(line[1])) << name;
@@ -76,12 +76,27 @@ void expect_no_harm(const std::string& bytes, const std::string& name) {
         triangulate(soup);
         ASSERT_TRUE(soup.is_triangles());
     } catch (const Error& error) {
-        const std::string message = error.what();
+        message = error.what();
         ASSERT_TRUE(message.starts_with(name + ": ")) << message;
         ASSERT_EQ(message.find_first_of("\r\n"), message.npos) << message;
         ASSERT_LT(message.size(), 250u) << message;
     }
     ASSERT_LE(test::largest_allocation, fixed + bytes_per_byte * bytes.size());
+}
+
+/// That, and reading what can be read: it finds damage where there is an error, and the same one first.
+void expect_no_harm(const std::string& bytes, const std::string& name) {
+    std::string error;
+    std::string error_in_part;
+    FileDamage damage;
+    expect_no_harm(bytes, name, nullptr, error);
+    expect_no_harm(bytes, name, &damage, error_in_part);
+    if (damage.count > 0) {
+        ASSERT_EQ(damage.sentences.front(), error);
+        ASSERT_EQ(damage.sentences.size(), std::min<std::size_t>(damage.count, 16));
+    } else {
+        ASSERT_EQ(error_in_part, error);
+    }
 }
 
 TEST(Hostile, SmallFilesAreValid) {

@@ -9,13 +9,27 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace delmesh {
+
+/// What could not be read of a damaged file.
+struct FileDamage {
+    /// Lines or faces that were left out; all that follows an early end counts as one.
+    std::size_t count = 0;
+    /// What is wrong with the first 16 of them, and where: each as an error would say it.
+    std::vector<std::string> sentences;
+};
 
 struct ReadOptions {
     /// Not given: content decides, the extension is a hint.
     std::optional<Format> format;
+    /// Given: what is damaged is left out and told here. Faces that can not be read are missing; vertices that can not
+    /// be read are NaN, so that the others keep their numbers. A file without a single face that can be read is an
+    /// error all the same, and so is a damaged scene. Not given: the first damage is an error.
+    FileDamage* damage = nullptr;
 };
 
 /// Reads a mesh file; of a scene (glTF, 3MF) all that is shown, where it is shown. gzip and Zstandard data are unpacked
