@@ -1,5 +1,7 @@
 #include "delaunay/choose_splits.hpp"
 
+#include "delaunay/block_search.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -12,6 +14,15 @@ constexpr double least_work = 200e6;
 /// Reached at 67,000 edges: nobody wants to wait for minutes unasked. A higher effort is asked.
 constexpr double most_work = 2e9;
 constexpr int default_effort = 3;
+/// From here on the search cuts the mesh into blocks.
+constexpr std::size_t many_edges = 4000;
+/// Each round may do half of the work. There are at least three, so that each place is within a block once, and more as
+/// long as they pay and less than twice the work is done.
+constexpr double round_share = 0.5;
+constexpr int least_rounds = 3;
+constexpr int most_rounds = 9;
+constexpr double most_shares = 2;
+constexpr std::size_t worthwhile = 400;  ///< a round that saves less than 1/400 of the points is the last one
 /// The share of the work in which an edge must be closed; else the rest is closed by borrowing.
 constexpr double patience = 0.25;
 /// More for the search where no edge stayed open for long.
@@ -69,17 +80,42 @@ double SplitChooser::full_work() const {
 void SplitChooser::search(const Context* context) {
     const double full = full_work();
     search_.construct(bad_, static_cast<std::uint64_t>(full));
-    if (options_.effort > 0) wait_for_open_edges(full, context);
+    const bool in_blocks = bad_.size() >= many_edges;
+    if (options_.effort > 0) in_blocks ? improve_blocks_once(context) : wait_for_open_edges(full, context);
     if (is_cancelled(context)) return;
     search_.close_rings(static_cast<std::uint64_t>(0.1 * default_work()));
     search_.close_open(static_cast<std::uint64_t>(full));
     const double left = (1 + spare_share) * full - static_cast<double>(model_.work());
-    if (options_.effort > 0) search_.improve(static_cast<std::uint64_t>(std::max(full, left)), context);
+    if (options_.effort > 0)
+        in_blocks ? improve_blocks(context)
+                  : search_.improve(static_cast<std::uint64_t>(std::max(full, left)), context);
     if (is_cancelled(context)) return;
     search_.thin_rings(static_cast<std::uint64_t>(0.1 * full));
     search_.spread(static_cast<std::uint64_t>(0.2 * full));
     if (baseline_.empty()) return;
     delmesh::take_better_regions(model_, search_.open(), placed_points(model_), baseline_);
+}
+
+/// The work grows with the mesh here without end, as all threads share it.
+void SplitChooser::improve_blocks_once(const Context* context) {
+    if (model_.point_count() == 0 || is_cancelled(context)) return;
+    const double all = std::ldexp(std::max(work_per_edge * static_cast<double>(bad_.size()), least_work),
+                                  options_.effort - default_effort);
+    report_progress(context, "place", std::min(shares_done_ / most_shares, 1.0));
+    BlockSearchOptions options;
+    options.seed = options_.seed;
+    options.work = round_share * all / static_cast<double>(model_.point_count());
+    shares_done_ += static_cast<double>(improve_in_blocks(model_, round_++, options, context)) / all;
+    search_.drop_closed();
+}
+
+void SplitChooser::improve_blocks(const Context* context) {
+    while (round_ < most_rounds && !is_cancelled(context)) {
+        const std::size_t before = model_.point_count();
+        improve_blocks_once(context);
+        if (round_ < least_rounds) continue;
+        if (shares_done_ >= most_shares || model_.point_count() + before / worthwhile >= before) return;
+    }
 }
 
 /// Searches for as long as edges get closed.

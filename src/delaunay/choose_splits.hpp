@@ -43,6 +43,8 @@ public:
 private:
     [[nodiscard]] double default_work() const;
     [[nodiscard]] double full_work() const;
+    void improve_blocks_once(const Context* context);
+    void improve_blocks(const Context* context);
     void wait_for_open_edges(double work, const Context* context);
     [[nodiscard]] std::uint32_t edge_between(VertexId a, VertexId b);
     [[nodiscard]] std::vector<PlacedPoint> place(std::span<const SplitPoint> splits);
@@ -52,6 +54,8 @@ private:
     SplitSearchOptions options_;
     std::vector<std::uint32_t> bad_;
     std::vector<PlacedPoint> baseline_;
+    int round_ = 0;           ///< of the search in blocks
+    double shares_done_ = 0;  ///< of the full work, in these rounds
 };
 
 }  // namespace delmesh

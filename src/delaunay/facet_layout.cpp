@@ -63,6 +63,12 @@ FacetLayout::FacetLayout(const MarkedMesh& marked) : marked_(marked), mesh_(mark
     second_scale_ = std::ldexp(1.0, exponent - exponent / 2);
 }
 
+FacetLayout::FacetLayout(const MarkedMesh& marked, const FacetLayout& other)
+    : marked_(marked),
+      mesh_(marked.mesh()),
+      scale_(other.scale_),
+      second_scale_(other.second_scale_) {}
+
 Vec3 FacetLayout::scaled(VertexId v) const {
     return second_scale_ * (scale_ * mesh_.point(v));
 }

@@ -74,6 +74,8 @@ public:
     };
 
     explicit FacetLayout(const MarkedMesh& marked);
+    /// An empty layout of the same mesh.
+    FacetLayout(const MarkedMesh& marked, const FacetLayout& other);
 
     /// The facet of a face, laid out if it was not. Cost: O(n log n) for a new facet of n triangles.
     std::uint32_t facet_of(FaceId f);

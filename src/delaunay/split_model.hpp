@@ -32,6 +32,8 @@ public:
     static constexpr std::uint32_t none = FacetLayout::none;
 
     explicit SplitModel(const MarkedMesh& marked) : layout_(marked) {}
+    /// An empty model of the mesh that another layout is of.
+    SplitModel(const MarkedMesh& marked, const FacetLayout& other) : layout_(marked, other) {}
 
     // --- where ---
     [[nodiscard]] const FacetLayout& layout() const { return layout_; }

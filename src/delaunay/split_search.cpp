@@ -9,7 +9,6 @@ namespace {
 constexpr int first_rounds = 6;
 constexpr std::size_t first_steps = 50;
 constexpr int mend_tries = 6;
-constexpr int spread_passes = 3;
 constexpr int shake_tries = 20;
 constexpr int close_tries = 3;
 constexpr std::size_t weave_steps = 25;  ///< for each edge that may borrow instead
@@ -81,10 +80,13 @@ bool SplitSearch::attempt(std::uint32_t e, std::size_t steps, bool clear_first) 
 
 void SplitSearch::construct(const std::vector<std::uint32_t>& bad_edges, std::uint64_t work) {
     limit_work(work);
-    open_ = bad_edges;
-    for (const std::uint32_t e : open_) model_.give_up(e, true);
+    set_open(bad_edges);
     for (int round = 0; round < first_rounds && !open_.empty(); ++round)
         close_each([&](std::uint32_t e) { return attempt(e, first_steps, round > 0 && random_.chance(0.7)); });
+}
+
+void SplitSearch::drop_closed() {
+    close_each([](std::uint32_t) { return false; });
 }
 
 void SplitSearch::attempt_any_open() {
@@ -286,7 +288,9 @@ void SplitSearch::improve(std::uint64_t work, const Context* context) {
             if (open_.empty() && points <= points_then && 400 * (points_then - points) < points_then) return;
             points_then = points;
             check = model_.work() + stretch;
-            report_progress(context, "place", static_cast<double>(model_.work() - start) / static_cast<double>(work));
+            if (!is_quiet_)
+                report_progress(context, "place",
+                                static_cast<double>(model_.work() - start) / static_cast<double>(work));
         }
         if (!open_.empty() && (spare_.empty() || random_.chance(open_share))) {
             attempt_any_open();
@@ -305,14 +309,6 @@ void SplitSearch::improve(std::uint64_t work, const Context* context) {
         find_spare_edges();
         since = 0;
     }
-}
-
-void SplitSearch::spread(std::uint64_t work) {
-    limit_work(work);
-    for (int pass = 0; pass < spread_passes; ++pass)
-        for (std::uint32_t e = 0; e < model_.edge_count(); ++e)
-            for (std::size_t i = 0; i < model_.point_count(e) && !repair_.is_exhausted(); ++i)
-                if (model_.is_movable(e)) repair_.spread(e, i);
 }
 
 SplitSearch::Move& SplitSearch::choose_move() {

@@ -48,6 +48,17 @@ public:
     /// stretch of it. The number of points never grows but to close an edge.
     void improve(std::uint64_t work, const Context* context = nullptr);
 
+    /// Reports no progress from now on, as a search on another thread must.
+    void be_quiet() { is_quiet_ = true; }
+
+    /// Takes these edges, which are not Delaunay, for open ones.
+    void set_open(const std::vector<std::uint32_t>& edges) {
+        open_ = edges;
+        for (const std::uint32_t e : open_) model_.give_up(e, true);
+    }
+    /// Edges that someone else has made Delaunay are open no more.
+    void drop_closed();
+
     /// Edges that are not Delaunay.
     [[nodiscard]] const std::vector<std::uint32_t>& open() const { return open_; }
 
@@ -100,6 +111,7 @@ private:
     [[nodiscard]] bool is_taken(const Target& t) const;
 
     SplitModel& model_;
+    bool is_quiet_ = false;
     Random random_;
     SplitRepair repair_;
     SplitSlide slide_;
