@@ -9,7 +9,7 @@ import command
 import mesh_file
 import render
 
-MODES = [("original", None), ("flip", ["--mode", "flip"]), ("preserve", ["--placement", "shells"]),
+MODES = [("original", None), ("flip", ["--placement", "shells", "--mode", "flip"]), ("preserve", ["--placement", "shells"]),
          ("feature, 10°", ["--placement", "shells", "--mode", "feature", "--feature-angle", "10"])]
 
 

@@ -18,9 +18,10 @@ def run():
     rows = []
     for mesh, source in sources():
         for order in ORDERS:
-            path, report = command.remesh(source, f"orders-{source.stem}-{order}", "--mode", "flip", "--order", order)
-            seconds = sorted(command.remesh(source, f"orders-{source.stem}-{order}", "--mode", "flip", "--order",
-                                            order)[1]["seconds"]["remesh"] for _ in range(3))[1]
+            name = f"orders-{source.stem}-{order}"
+            options = ["--mode", "flip", "--placement", "shells", "--order", order]
+            path, report = command.remesh(source, name, *options)
+            seconds = sorted(command.remesh(source, name, *options)[1]["seconds"]["remesh"] for _ in range(3))[1]
             _, mean, proved = command.distance(source, path)
             rows.append([mesh, order, report["flips"], report["splits"], proved, mean, seconds])
             print(*rows[-1], flush=True)

@@ -32,7 +32,7 @@ VARIANTS = [("keep-flipping", []), ("literal", ["--finish", "literal"])]
 
 
 def measure(source, name, options):
-    path, report = command.remesh(source, name, "--mode", "flip", *options)
+    path, report = command.remesh(source, name, "--mode", "flip", "--placement", "shells", *options)
     before, after = report["input"], report["output"]
     edges = before["mesh"]["edges"]
     angles = []

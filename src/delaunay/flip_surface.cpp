@@ -114,8 +114,8 @@ void flip_surface(Mesh& mesh, Way way, const RemeshOptions& options, const Conte
 }  // namespace
 
 void flip_surface(Mesh& mesh, const RemeshOptions& options, const Context* context, RemeshReport& report) {
-    const bool two_ways = options.mode == RemeshMode::feature && options.placement == SplitPlacement::fewest;
-    if (!two_ways) return flip_surface(mesh, Way::published, options, context, report);
+    if (options.placement == SplitPlacement::shells)
+        return flip_surface(mesh, Way::published, options, context, report);
 
     Mesh other_mesh = mesh;
     RemeshReport other = report;

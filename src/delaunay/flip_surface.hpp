@@ -7,7 +7,7 @@
 
 namespace delmesh {
 
-/// Algorithm 2 and section 6 of the paper. In mode feature with placement `fewest`, the second way is tried as well:
+/// Algorithm 2 and section 6 of the paper. With placement `fewest` a second way is tried as well, if that needs splits:
 /// first flips alone, then the surface stays, features with it, and a search places the splits. The way with fewer
 /// splits is taken.
 void flip_surface(Mesh& mesh, const RemeshOptions& options, const Context* context, RemeshReport& report);

@@ -35,7 +35,7 @@ enum class FlipFinish {
     literal,        ///< Algorithm 2 as published: the surface is kept from here on, by Algorithm 1
 };
 
-/// Modes preserve and feature: where edges are split.
+/// Where edges are split.
 enum class SplitPlacement {
     fewest,  ///< where a search finds that few points are enough; never more than `shells`. See docs/fewest.md
     shells,  ///< at concentric shells: Algorithm 1 as published
@@ -125,8 +125,7 @@ struct RemeshOptions {
         visit(self.order, OptionInfo{.name = "order", .help = "in which order edges are flipped"});
         visit(self.finish,
               OptionInfo{.name = "finish", .help = "mode flip: what to do when nothing can be flipped any more"});
-        visit(self.placement,
-              OptionInfo{.name = "placement", .help = "modes preserve and feature: where edges are split"});
+        visit(self.placement, OptionInfo{.name = "placement", .help = "where edges are split"});
         visit(self.effort, OptionInfo{.name = "effort",
                                       .lowest = 0,
                                       .highest = 12,
