@@ -34,7 +34,14 @@ public:
         SplitSearch search(model_, seed);
         search.set_open(find_open());
         search.be_quiet();
-        search.improve(static_cast<std::uint64_t>(options.work * static_cast<double>(free_points_)), context);
+        const auto work = static_cast<std::uint64_t>(options.work * static_cast<double>(free_points_));
+        if (options.polishes) {
+            search.spread(work);
+            search.polish(work, context);
+            search.spread(work);
+        } else {
+            search.improve(work, context);
+        }
         result.work = model_.work();
         for (const Edge& edge : edges_) {
             if (!edge.is_free) continue;

@@ -11,6 +11,7 @@ namespace delmesh {
 struct BlockSearchOptions {
     std::uint64_t seed = 1;
     double work = 0;                  ///< for each point,
+    bool polishes = false;            ///< the angles, instead of taking points away
     std::size_t block_points = 2000;  ///< at most in a block
 };
 

@@ -23,6 +23,8 @@ constexpr int least_rounds = 3;
 constexpr int most_rounds = 9;
 constexpr double most_shares = 2;
 constexpr std::size_t worthwhile = 400;  ///< a round that saves less than 1/400 of the points is the last one
+constexpr int polish_rounds = 2;
+constexpr double spread_share = 0.2;
 /// The share of the work in which an edge must be closed; else the rest is closed by borrowing.
 constexpr double patience = 0.25;
 /// More for the search where no edge stayed open for long.
@@ -81,7 +83,7 @@ void SplitChooser::search(const Context* context) {
     const double full = full_work();
     search_.construct(bad_, static_cast<std::uint64_t>(full));
     const bool in_blocks = bad_.size() >= many_edges;
-    if (options_.effort > 0) in_blocks ? improve_blocks_once(context) : wait_for_open_edges(full, context);
+    if (options_.effort > 0) in_blocks ? improve_blocks_once(false, context) : wait_for_open_edges(full, context);
     if (is_cancelled(context)) return;
     search_.close_rings(static_cast<std::uint64_t>(0.1 * default_work()));
     search_.close_open(static_cast<std::uint64_t>(full));
@@ -91,20 +93,33 @@ void SplitChooser::search(const Context* context) {
                   : search_.improve(static_cast<std::uint64_t>(std::max(full, left)), context);
     if (is_cancelled(context)) return;
     search_.thin_rings(static_cast<std::uint64_t>(0.1 * full));
-    search_.spread(static_cast<std::uint64_t>(0.2 * full));
+    spread(full, in_blocks, context);
     if (baseline_.empty()) return;
     delmesh::take_better_regions(model_, search_.open(), placed_points(model_), baseline_);
 }
 
+/// For large angles. Does not need the work it may do.
+void SplitChooser::spread(double work, bool in_blocks, const Context* context) {
+    if (in_blocks && options_.effort > 0) {
+        for (int i = 0; i < polish_rounds; ++i) improve_blocks_once(true, context);
+        return;
+    }
+    search_.spread(static_cast<std::uint64_t>(spread_share * work));
+    if (options_.effort == 0) return;
+    search_.polish(static_cast<std::uint64_t>(spread_share * work), context);
+    search_.spread(static_cast<std::uint64_t>(spread_share * work));
+}
+
 /// The work grows with the mesh here without end, as all threads share it.
-void SplitChooser::improve_blocks_once(const Context* context) {
+void SplitChooser::improve_blocks_once(bool polish, const Context* context) {
     if (model_.point_count() == 0 || is_cancelled(context)) return;
     const double all = std::ldexp(std::max(work_per_edge * static_cast<double>(bad_.size()), least_work),
                                   options_.effort - default_effort);
     report_progress(context, "place", std::min(shares_done_ / most_shares, 1.0));
     BlockSearchOptions options;
     options.seed = options_.seed;
-    options.work = round_share * all / static_cast<double>(model_.point_count());
+    options.polishes = polish;
+    options.work = (polish ? spread_share : round_share) * all / static_cast<double>(model_.point_count());
     shares_done_ += static_cast<double>(improve_in_blocks(model_, round_++, options, context)) / all;
     search_.drop_closed();
 }
@@ -112,7 +127,7 @@ void SplitChooser::improve_blocks_once(const Context* context) {
 void SplitChooser::improve_blocks(const Context* context) {
     while (round_ < most_rounds && !is_cancelled(context)) {
         const std::size_t before = model_.point_count();
-        improve_blocks_once(context);
+        improve_blocks_once(false, context);
         if (round_ < least_rounds) continue;
         if (shares_done_ >= most_shares || model_.point_count() + before / worthwhile >= before) return;
     }

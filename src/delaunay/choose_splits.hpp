@@ -43,7 +43,8 @@ public:
 private:
     [[nodiscard]] double default_work() const;
     [[nodiscard]] double full_work() const;
-    void improve_blocks_once(const Context* context);
+    void spread(double work, bool in_blocks, const Context* context);
+    void improve_blocks_once(bool polish, const Context* context);
     void improve_blocks(const Context* context);
     void wait_for_open_edges(double work, const Context* context);
     [[nodiscard]] std::uint32_t edge_between(VertexId a, VertexId b);

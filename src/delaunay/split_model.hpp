@@ -92,6 +92,11 @@ public:
     void begin();
     void commit();
     void rollback();
+    /// Calls visit(edge) for each edge of which a part, or what it sees, has changed since `begin`.
+    template <class Visit>
+    void visit_changed(Visit&& visit) const {
+        for (const Saved& saved : saved_) visit(saved.edge);
+    }
 
     /// Elementary evaluations so far: the measure of work that budgets are stated in.
     [[nodiscard]] std::uint64_t work() const { return work_; }

@@ -65,6 +65,9 @@ public:
     /// Moves points away from each other while all stays Delaunay.
     void spread(std::uint64_t work);
 
+    /// Places points around small angles anew, where that leaves larger ones and as few points.
+    void polish(std::uint64_t work, const Context* context = nullptr);
+
 private:
     struct Target {
         std::uint32_t edge = 0;
@@ -108,6 +111,13 @@ private:
     void add_nearest(const Side& from, Point2 at);
     bool move_across(int& k, Target& at);
     void remove_taken();
+    [[nodiscard]] double smallest_angle(std::uint32_t e, Target& near);
+    [[nodiscard]] double penalty_before(std::uint32_t e) const;
+    void polish_edge(std::uint32_t e);
+    void try_to_polish(const Target& near);
+    void find_small_angles(std::vector<std::uint32_t>& edges);
+    [[nodiscard]] double point_at(const Side& side, std::uint32_t on, Point2 place) const;
+    [[nodiscard]] Target point_near(std::uint32_t e, std::size_t i, std::size_t k, Point2 apex);
     [[nodiscard]] bool is_taken(const Target& t) const;
 
     SplitModel& model_;
@@ -138,6 +148,8 @@ private:
     std::vector<double> borrowed_;
     std::vector<std::uint32_t> reached_;  ///< per edge: the last ball that it was reached by
     std::uint32_t ball_ = 0;
+    std::vector<double> angles_;  ///< per edge, while polishing: the sine of the smallest angle of its triangles
+    std::vector<double> new_angles_;
 };
 
 }  // namespace delmesh

@@ -12,6 +12,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <string>
 
 namespace delmesh {
 namespace {
@@ -60,7 +62,7 @@ TEST_P(Blocks, ImproveWhateverTheThreads) {
         prepared.construct(model);
         std::size_t before = model.point_count();
         for (int round = 0; round < rounds; ++round) {
-            improve_in_blocks(model, round, {3, 3000, 60}, &context);
+            improve_in_blocks(model, round, {3, 3000, false, 60}, &context);
             EXPECT_LE(model.point_count(), before);
             EXPECT_EQ(count_bad(model), 0U);
             EXPECT_EQ(model.suspect_count(), 0U);
@@ -90,6 +92,50 @@ TEST_P(Blocks, AreSmallAndLeaveMostFacetsInside) {
     }
     EXPECT_NE(by_round[0], by_round[1]);
     EXPECT_NE(by_round[1], by_round[2]);
+}
+
+/// The faces with an angle whose sine is below a limit once the model's points are put in.
+std::size_t count_thin_faces(const Prepared& prepared, const SplitModel& model, double limit) {
+    std::vector<SplitPoint> plan;
+    for (const PlacedPoint& point : placed_points(model)) {
+        const HalfedgeId h = model.layout().edge(point.edge).halfedge;
+        const auto [a, b] = std::minmax({prepared.mesh.origin(h), prepared.mesh.target(h)});
+        plan.push_back({a, b, point.at});
+    }
+    Mesh mesh = prepared.mesh;
+    MarkedMesh marked(mesh, prepared.marked);
+    RemeshReport report;
+    EXPECT_TRUE(carry_out(marked, {}, nullptr, report, prepared.start, plan).empty());
+    std::size_t count = 0;
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+        std::array<Vec3, 3> p;
+        for (std::uint32_t i = 0; i < 3; ++i) p[i] = mesh.point(mesh.origin(HalfedgeId(3 * f + i)));
+        std::array<double, 3> sides{norm(p[1] - p[0]), norm(p[2] - p[1]), norm(p[0] - p[2])};
+        std::sort(sides.begin(), sides.end());
+        if (norm(cross(p[1] - p[0], p[2] - p[0])) < limit * sides[1] * sides[2]) ++count;
+    }
+    return count;
+}
+
+TEST_P(Blocks, PolishingLeavesFewerThinFacesAndNoMorePoints) {
+    const Prepared prepared(GetParam());
+    for (const bool in_blocks : {false, true}) {
+        SplitModel model(prepared.marked);
+        prepared.construct(model);
+        if (count_bad(model) > 0 || GetParam() == std::string("plate")) return;  // the mesh has thin faces itself
+        const std::size_t points = model.point_count();
+        const std::size_t thin = count_thin_faces(prepared, model, 0.02);
+        if (in_blocks) {
+            improve_in_blocks(model, 0, {3, 20000, true, 60}, nullptr);
+        } else {
+            SplitSearch search(model, 1);
+            search.polish(20000 * points);
+        }
+        EXPECT_LE(model.point_count(), points);
+        EXPECT_EQ(count_bad(model), 0U);
+        EXPECT_GE(thin, 10U);
+        EXPECT_LT(count_thin_faces(prepared, model, 0.02), thin);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Samples, Blocks, testing::Values("terrain", "plate", "noisy-sphere"), [](const auto& named) {
