@@ -252,6 +252,38 @@ CompactMap compact(Mesh& mesh) {
     return map;
 }
 
+void renumber(Mesh& mesh, const CompactMap& map) {
+    MeshEditor edit(mesh);
+    const auto living = [](const auto& ids) {
+        return static_cast<std::size_t>(std::count_if(ids.begin(), ids.end(), [](auto id) { return id.valid(); }));
+    };
+    const auto moved = [&map](HalfedgeId h) {
+        if (!h.valid()) return h;
+        return HalfedgeId(map.face[Mesh::face(h).index()].value() * 3 + h.value() % 3);
+    };
+    const std::size_t vertices = living(map.vertex);
+    const std::size_t halfedges = 3 * living(map.face);
+    std::vector<VertexId> origin(halfedges);
+    std::vector<HalfedgeId> twin(halfedges);
+    for (std::size_t h = 0; h < edit.origin.size(); ++h) {
+        if (!edit.origin[h].valid()) continue;
+        const std::size_t to = moved(HalfedgeId(h)).index();
+        origin[to] = map.vertex[edit.origin[h].index()];
+        twin[to] = moved(edit.twin[h]);
+    }
+    std::vector<HalfedgeId> out(vertices);
+    std::vector<Vec3> points(vertices);
+    for (std::size_t v = 0; v < map.vertex.size(); ++v) {
+        if (!map.vertex[v].valid()) continue;
+        out[map.vertex[v].index()] = moved(edit.out[v]);
+        points[map.vertex[v].index()] = edit.points[v];
+    }
+    edit.origin.swap(origin);
+    edit.twin.swap(twin);
+    edit.out.swap(out);
+    edit.points.swap(points);
+}
+
 void reserve(Mesh& mesh, std::size_t vertices, std::size_t faces) {
     MeshEditor edit(mesh);
     edit.origin.reserve(3 * faces);

@@ -20,25 +20,6 @@ constexpr double rounding2 = 1e-14;
 /// When nothing else is left, the allowed squared distance grows to this much more than the smallest one asked for.
 constexpr double raise = 1.1;
 
-/// Brings the mesh to about unit size, exactly.
-double power_of_two_scale(const Mesh& mesh) {
-    Vec3 low, high;
-    bool any = false;
-    for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
-        if (!mesh.halfedge(VertexId(v)).valid()) continue;
-        const Vec3& p = mesh.points()[v];
-        if (!any) low = high = p;
-        any = true;
-        for (int axis = 0; axis < 3; ++axis) {
-            low[axis] = std::min(low[axis], p[axis]);
-            high[axis] = std::max(high[axis], p[axis]);
-        }
-    }
-    const double diagonal = norm(high * 0.5 - low * 0.5);
-    if (!(diagonal > 0)) return 1;
-    return std::ldexp(1.0, std::clamp(-std::ilogb(diagonal), -1022, 1022));
-}
-
 std::size_t count_used(const Mesh& mesh) {
     std::size_t used = 0;
     for (std::size_t v = 0; v < mesh.vertex_count(); ++v) used += mesh.halfedge(VertexId(v)).valid() ? 1 : 0;
@@ -52,15 +33,13 @@ Decimator::Decimator(Mesh& mesh, const Tuning& tuning, const DecimatorLimits& li
       tuning_(tuning),
       limits_(limits),
       recorder_(recorder),
-      scale_(power_of_two_scale(mesh)),
-      placer_(tuning_),
+      scale_(local_scale(mesh)),
+      placer_(mesh, tuning_),
       weights_(mesh, scale_, tuning_),
       vertices_(count_used(mesh)),
       blocked_(mesh.halfedge_count()),
       stamp_(mesh.halfedge_count()),
       watches_(mesh.vertex_count()) {
-    merged_into_.resize(mesh.vertex_count());
-    for (std::size_t v = 0; v < merged_into_.size(); ++v) merged_into_[v] = VertexId(v);
     enqueue_all();
 }
 
@@ -74,6 +53,13 @@ void Decimator::enqueue_all() {
         if (mesh_.origin(h).valid() && mesh_.names_edge(h)) queue_.append(key_of(h), h.value());
     }
     queue_.heapify();
+}
+
+void Decimator::continue_from(const Sweeper& sweeper) {
+    for (std::size_t v = 0; v < mesh_.vertex_count(); ++v)
+        weights_.set_history(VertexId(v), sweeper.weights().history(VertexId(v)));
+    worst_error_ = sweeper.worst_error();
+    samples_->reattach(mesh_, scale_, sweeper.merged_into());
 }
 
 std::size_t Decimator::refit(const RefitTuning& tuning, const Context* context) {
@@ -90,41 +76,8 @@ std::size_t Decimator::refit(const RefitTuning& tuning, const Context* context) 
     return moves;
 }
 
-EdgeCost Decimator::cost_of(HalfedgeId h) const {
-    const VertexId u = mesh_.origin(h);
-    const VertexId v = mesh_.target(h);
-    const Vec3 to_v = (mesh_.point(v) - mesh_.point(u)) * scale_;
-    EdgeCost cost;
-    cost.steered = weights_.of_edge(u, v, to_v);
-    cost.middle = to_v * 0.5;
-    cost.trace = cost.steered.trace();
-    cost.steered.add_point(cost.middle, tuning_.regular * cost.trace);
-    cost.steered.c += tuning_.length_cost * cost.trace * squared_norm(to_v);
-    return cost;
-}
-
 double Decimator::key_of(HalfedgeId h) const {
-    const EdgeCost cost = cost_of(h);
-    const auto factors = factorise(cost.steered);
-    return std::max(0.0, cost.steered(factors ? factors->lowest : cost.middle));
-}
-
-/// The volume under the star is kept where normal.w = offset. Where the faces look in many directions that says little
-/// about w, and counts less.
-void Decimator::add_volume(EdgeCost& cost) const {
-    Vec3 normal;
-    double offset = 0;
-    double area = 0;
-    const auto add = [&](const Vec3& n) {
-        normal = normal + n;
-        area += std::sqrt(squared_norm(n));
-    };
-    for (std::size_t i = 0; i < star_.face_count(); ++i) {
-        add(star_.ring[i].old_normal);
-        offset += dot(star_.ring[i].old_normal, star_.ring[i].point);
-    }
-    for (int i = 0; i < star_.dying_count; ++i) add(star_.dying[i]);  // through u, the origin
-    if (area > 0) cost.steered.add_plane(normal, offset, tuning_.volume * cost.trace / (area * area));
+    return lowest_cost(edge_cost(mesh_, weights_, h, scale_, tuning_));
 }
 
 void Decimator::enqueue(HalfedgeId h) {
@@ -226,8 +179,7 @@ Vec3 Decimator::settled(const Vec3& w) const {
 }
 
 bool Decimator::exceeds_error(const Quadric& merged) {
-    const double trace = merged.trace();
-    const double error = trace > 0 ? std::sqrt(std::max(0.0, merged.c) / trace) / scale_ : 0;
+    const double error = std::sqrt(mean_square(merged)) / scale_;
     if (limits_.error > 0 && error > limits_.error) return true;
     worst_error_ = std::max(worst_error_, error);
     return false;
@@ -236,8 +188,8 @@ bool Decimator::exceeds_error(const Quadric& merged) {
 void Decimator::process(const Queue::Entry& entry) {
     const HalfedgeId h(entry.edge);
     if (!gather(mesh_, h, scale_, star_)) return block(h, Blocker::topology);
-    EdgeCost cost = cost_of(h);
-    if (tuning_.volume > 0) add_volume(cost);
+    EdgeCost cost = edge_cost(mesh_, weights_, h, scale_, tuning_);
+    if (tuning_.volume > 0) add_volume(star_, tuning_, cost);
     const auto place = tuning_.paper ? placer_.paper(star_, cost) : placer_.best(star_, cost);
     if (!place) return block(h, placer_.blocker());
     if (!queue_.empty() && place->cost > tuning_.slack * queue_.top().key &&
@@ -249,8 +201,7 @@ void Decimator::process(const Queue::Entry& entry) {
     const Vec3 w = settled(star_.frame.to_mesh(place->point));
     if (tuning_.constrained && !keeps_delaunay(mesh_, star_, w)) return block(h, Blocker::rounding);
     const Vec3 local = star_.frame.to_local(w);
-    Quadric merged = weights_.history(star_.u).moved_to(local);
-    merged += weights_.history(star_.v).moved_to(local - star_.v_point);
+    const Quadric merged = weights_.merged_history(star_, local);
     if (exceeds_error(merged)) return block(h, Blocker::error);
     if (samples_) {
         samples_->gather(star_);
@@ -264,25 +215,24 @@ void Decimator::process(const Queue::Entry& entry) {
 void Decimator::accept(HalfedgeId h, const Vec3& w, const Quadric& merged) {
     const VertexId kept = star_.u;
     const VertexId gone = star_.v;
+    const VertexId left = mesh_.apex(h);
     const auto drop = [&](HalfedgeId at) {
         const HalfedgeId e = Mesh::halfedge(mesh_.edge(at));
         queue_.remove(e.value());
         forget(e);
     };
     const HalfedgeId t = mesh_.twin(h);
+    const VertexId right = t.valid() ? mesh_.apex(t) : VertexId();
     drop(Mesh::next(h)), drop(Mesh::prev(h));
     if (t.valid()) drop(Mesh::next(t)), drop(Mesh::prev(t));
-    if (recorder_ != nullptr)
-        recorder_->collapsed(kept, gone, mesh_.apex(h), t.valid() ? mesh_.apex(t) : VertexId(), mesh_.point(kept),
-                             mesh_.point(gone));
+    if (recorder_ != nullptr) recorder_->collapsed(kept, gone, left, right, mesh_.point(kept), mesh_.point(gone));
+    const Vec3 local = star_.frame.to_local(w);
     collapse(mesh_, h, w);
     if (samples_) samples_->commit(star_);
-    merged_into_[gone.index()] = kept;
     --vertices_;
     ++counts_.collapses;
     weights_.set_history(kept, merged);
-    weights_.refresh(kept);
-    for (const Star::Corner& corner : star_.ring) weights_.refresh(corner.vertex);
+    weights_.replace_star(star_, local, left, right);
     each_edge(mesh_, kept, [&](HalfedgeId e) { enqueue(e); });
     wake(kept);
     wake(gone);

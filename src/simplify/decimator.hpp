@@ -9,6 +9,7 @@
 #include "simplify/refit.hpp"
 #include "simplify/samples.hpp"
 #include "simplify/star.hpp"
+#include "simplify/sweeper.hpp"
 #include "simplify/tuning.hpp"
 #include "simplify/watchlists.hpp"
 #include "simplify/weights.hpp"
@@ -16,6 +17,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace delmesh {
@@ -40,6 +42,10 @@ public:
 
     /// From now on `most` or fewer samples of the surface as it is, with its first `count` vertices, are followed.
     void follow_samples(std::size_t count, std::size_t most) { samples_.emplace(mesh_, count, scale_, most); }
+    /// From now on these are followed.
+    void follow_samples(SurfaceSamples samples) { samples_ = std::move(samples); }
+    /// The sweeper has gone the first part of the way. Requires `follow_samples`, with those from before.
+    void continue_from(const Sweeper& sweeper);
     /// On the last part of the way to so many vertices, collapses must not leave a sample far from the surface, nor the
     /// surface far from the samples: such edges wait until the mean error has grown or nothing else is left.
     void guard_for(std::size_t vertices);
@@ -73,9 +79,7 @@ private:
             return a.distance2 > b.distance2 || (a.distance2 == b.distance2 && a.watch.edge > b.watch.edge);
         }
     };
-    [[nodiscard]] EdgeCost cost_of(HalfedgeId h) const;
     [[nodiscard]] double key_of(HalfedgeId h) const;
-    void add_volume(EdgeCost& cost) const;
     void enqueue_all();
     void enqueue(HalfedgeId h);
     void forget(HalfedgeId h);
@@ -101,7 +105,6 @@ private:
     VertexWeights weights_;
     std::size_t vertices_ = 0;
     double worst_error_ = 0;
-    std::vector<VertexId> merged_into_;
     std::vector<Blocker> blocked_;      ///< per half-edge: what it waits for
     std::vector<std::uint32_t> stamp_;  ///< per half-edge: how often that has changed
     Watchlists<Watch> watches_;

@@ -7,14 +7,14 @@
 
 namespace delmesh {
 
-bool Placer::fits(const Star& star, const Vec3& w) {
+bool Placer::fits(Star& star, const Vec3& w) {
     ++evaluations_;
-    last_ = find_blocker(star, w, fail_first_);
+    last_ = find_blocker(mesh_, star, w, fail_first_);
     if (!tuning_.constrained && last_ >= Blocker::subtending) last_ = Blocker::none;
     return last_ == Blocker::none;
 }
 
-void Placer::bisect(const Star& star, const EdgeCost& cost, const Vec3& goal, Place& place) {
+void Placer::bisect(Star& star, const EdgeCost& cost, const Vec3& goal, Place& place) {
     const Vec3 start = place.point;
     double low = 0;
     double step = 0.5;
@@ -62,7 +62,8 @@ double slack(Angle angle) {
 
 }  // namespace
 
-void Placer::linearise(const Star& star, const Vec3& w) {
+void Placer::linearise(Star& star, const Vec3& w) {
+    find_outers(mesh_, star);
     constexpr Angle right{};
     const std::size_t size = star.ring.size();
     const std::size_t faces = star.face_count();
@@ -102,7 +103,7 @@ void Placer::linearise(const Star& star, const Vec3& w) {
     }
 }
 
-void Placer::descend(const Star& star, const EdgeCost& cost, Place& place, bool feasible, bool& found) {
+void Placer::descend(Star& star, const EdgeCost& cost, Place& place, bool feasible, bool& found) {
     found = feasible;
     const auto factors = factorise(cost.steered);
     if (!factors) return;
@@ -134,7 +135,7 @@ void Placer::descend(const Star& star, const EdgeCost& cost, Place& place, bool 
     }
 }
 
-std::optional<Place> Placer::best(const Star& star, const EdgeCost& cost) {
+std::optional<Place> Placer::best(Star& star, const EdgeCost& cost) {
     fail_first_ = 0;
     const auto factors = factorise(cost.steered);
     Vec3 goal = cost.middle;
@@ -158,7 +159,7 @@ std::optional<Place> Placer::best(const Star& star, const EdgeCost& cost) {
     return place;
 }
 
-std::optional<Place> Placer::improve(const Star& star, const EdgeCost& cost, const Vec3& start) {
+std::optional<Place> Placer::improve(Star& star, const EdgeCost& cost, const Vec3& start) {
     fail_first_ = 0;
     const auto factors = factorise(cost.steered);
     if (!factors) return std::nullopt;
@@ -171,11 +172,12 @@ std::optional<Place> Placer::improve(const Star& star, const EdgeCost& cost, con
     return place;
 }
 
-std::optional<Place> Placer::paper(const Star& star, const EdgeCost& cost) {
+std::optional<Place> Placer::paper(Star& star, const EdgeCost& cost) {
     fail_first_ = 0;
     witness_ = 0;
     blocker_ = Blocker::region;
     const auto factors = factorise(cost.steered);
+    find_outers(mesh_, star);
     if (!factors || !find_paper_region(star, cost.middle, half_spaces_)) return std::nullopt;
     ++programs_;
     const auto point = minimise(*factors, half_spaces_);

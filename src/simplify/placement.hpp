@@ -1,8 +1,8 @@
 #pragma once
 // Where the merged vertex goes.
 
-#include "delmesh/simplify/quadric.hpp"
 #include "delmesh/simplify/quadric_program.hpp"
+#include "simplify/edge_cost.hpp"
 #include "simplify/star.hpp"
 #include "simplify/tuning.hpp"
 
@@ -11,13 +11,6 @@
 
 namespace delmesh {
 
-/// An edge's error as a function of where its ends merge to; local to the frame of its star (the origin is u).
-struct EdgeCost {
-    Quadric steered;   ///< the error, with what picks one of many equal places
-    double trace = 0;  ///< of the error alone
-    Vec3 middle;
-};
-
 struct Place {
     Vec3 point;  ///< local
     double cost = 0;
@@ -25,15 +18,15 @@ struct Place {
 
 class Placer {
 public:
-    explicit Placer(const Tuning& tuning) : tuning_(tuning) {}
+    Placer(const Mesh& mesh, const Tuning& tuning) : mesh_(mesh), tuning_(tuning) {}
 
     /// The best place found where all conditions hold in floating point, or why there is none.
-    std::optional<Place> best(const Star& star, const EdgeCost& cost);
+    std::optional<Place> best(Star& star, const EdgeCost& cost);
     /// The paper's: the lowest point over the intersection of half-spaces.
-    std::optional<Place> paper(const Star& star, const EdgeCost& cost);
+    std::optional<Place> paper(Star& star, const EdgeCost& cost);
 
     /// A better place than `start`, where all conditions hold; nothing if there is none.
-    std::optional<Place> improve(const Star& star, const EdgeCost& cost, const Vec3& start);
+    std::optional<Place> improve(Star& star, const EdgeCost& cost, const Vec3& start);
 
     /// Of the last call that found no place: the condition that the best place of all would have violated, and the
     /// face of the star that belongs to it.
@@ -44,11 +37,12 @@ public:
     [[nodiscard]] std::size_t programs() const { return programs_; }
 
 private:
-    bool fits(const Star& star, const Vec3& w);
-    void bisect(const Star& star, const EdgeCost& cost, const Vec3& goal, Place& place);
-    void descend(const Star& star, const EdgeCost& cost, Place& place, bool feasible, bool& found);
-    void linearise(const Star& star, const Vec3& w);
+    bool fits(Star& star, const Vec3& w);
+    void bisect(Star& star, const EdgeCost& cost, const Vec3& goal, Place& place);
+    void descend(Star& star, const EdgeCost& cost, Place& place, bool feasible, bool& found);
+    void linearise(Star& star, const Vec3& w);
 
+    const Mesh& mesh_;
     const Tuning& tuning_;
     Blocker blocker_ = Blocker::none;
     Blocker last_ = Blocker::none;

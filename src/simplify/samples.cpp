@@ -1,9 +1,11 @@
 #include "simplify/samples.hpp"
 
+#include "simplify/triangle_point.hpp"
 #include "simplify/walk.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace delmesh {
 
@@ -22,17 +24,17 @@ SurfaceSamples::SurfaceSamples(const Mesh& mesh, std::size_t count, double scale
         if (!mesh.halfedge(v).valid()) continue;
         Vec3 normal;
         each_outgoing(mesh, v, [&](HalfedgeId h) { normal = normal + normal_of(h); });
-        add(mesh.point(v), normal * (1.0 / 12), Mesh::face(mesh.halfedge(v)));
+        add(mesh.point(v), normal * (1.0 / 12), Mesh::face(mesh.halfedge(v)), v);
     }
     for (std::size_t f = 0; f < mesh.face_count(); f += stride) {
         const HalfedgeId h = Mesh::halfedge(FaceId(f));
         const Vec3 third = (mesh.point(mesh.origin(h)) * (1.0 / 3) + mesh.point(mesh.target(h)) * (1.0 / 3)) +
                            mesh.point(mesh.apex(h)) * (1.0 / 3);
-        add(third, normal_of(h) * 0.75, FaceId(f));
+        add(third, normal_of(h) * 0.75, FaceId(f), mesh.origin(h));
     }
 }
 
-void SurfaceSamples::add(const Vec3& point, const Vec3& normal, FaceId face) {
+void SurfaceSamples::add(const Vec3& point, const Vec3& normal, FaceId face, VertexId near) {
     Sample sample;
     sample.point = point;
     const double length = std::sqrt(squared_norm(normal));
@@ -43,6 +45,54 @@ void SurfaceSamples::add(const Vec3& point, const Vec3& normal, FaceId face) {
     sample.next = first_[face.index()];
     first_[face.index()] = static_cast<std::uint32_t>(samples_.size());
     samples_.push_back(sample);
+    near_.push_back(near);
+}
+
+/// The nearest of the faces at v, or at a vertex that is nearer, and so on.
+FaceId SurfaceSamples::find_nearest(const Mesh& mesh, double scale, VertexId v, Sample& sample) {
+    const Frame frame{scale, 1 / scale, sample.point};
+    double best = std::numeric_limits<double>::infinity();
+    FaceId face;
+    for (VertexId at = v; at.valid();) {
+        VertexId next;
+        const Vec3 centre = frame.to_local(mesh.point(at));
+        each_outgoing(mesh, at, [&](HalfedgeId h) {
+            const TrianglePoint p = nearest_on_triangle({}, centre, frame.to_local(mesh.point(mesh.target(h))),
+                                                        frame.to_local(mesh.point(mesh.apex(h))));
+            if (!(p.distance2 < best)) return;
+            best = p.distance2;
+            face = Mesh::face(h);
+            const std::array<VertexId, 3> corner{at, mesh.target(h), mesh.apex(h)};
+            const auto most = std::max_element(p.weights.begin(), p.weights.end());
+            next = corner[static_cast<std::size_t>(most - p.weights.begin())];
+        });
+        at = next == at ? VertexId() : next;
+    }
+    sample.distance2 = static_cast<float>(best);
+    return face;
+}
+
+void SurfaceSamples::reattach(const Mesh& mesh, double scale, const std::vector<VertexId>& now) {
+    std::vector<FaceId> face(samples_.size());
+    std::vector<std::uint32_t> place(mesh.face_count() + 1);
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+        face[i] = find_nearest(mesh, scale, now[near_[i].index()], samples_[i]);
+        ++place[face[i].index() + 1];
+    }
+    for (std::size_t f = 1; f < place.size(); ++f) place[f] += place[f - 1];
+    // In the order of the faces: what is used together lies together.
+    std::vector<Sample> sorted(samples_.size());
+    first_.assign(mesh.face_count(), none);
+    sum_ = 0;
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+        const std::uint32_t at = place[face[i].index()]++;
+        sorted[at] = samples_[i];
+        sorted[at].next = first_[face[i].index()];
+        first_[face[i].index()] = at;
+        sum_ += static_cast<double>(sorted[at].weight) * static_cast<double>(sorted[at].distance2);
+    }
+    samples_.swap(sorted);
+    near_.clear();
 }
 
 void SurfaceSamples::gather(const Star& star) {

@@ -27,6 +27,10 @@ public:
     /// Takes about `most` of them, evenly by index.
     SurfaceSamples(const Mesh& mesh, std::size_t count, double scale, std::size_t most);
 
+    /// The mesh has been decimated by somebody else: `now` says which of its vertices the ones at the start have
+    /// become.
+    void reattach(const Mesh& mesh, double scale, const std::vector<VertexId>& now);
+
     struct Member {
         Vec3 point;  ///< local to the star
         std::uint32_t sample = 0;
@@ -65,7 +69,8 @@ private:
         Vec3 normal;
         double inverse2 = 0;  ///< 1 / |normal|^2
     };
-    void add(const Vec3& point, const Vec3& normal, FaceId face);
+    void add(const Vec3& point, const Vec3& normal, FaceId face, VertexId near);
+    [[nodiscard]] static FaceId find_nearest(const Mesh& mesh, double scale, VertexId v, Sample& sample);
     void prepare(const Star& star, const Vec3& w);
     void attach(Member& member, std::size_t faces, const Vec3& from_centre) const;
     [[nodiscard]] double height2(const Vec3& x) const;
@@ -73,6 +78,7 @@ private:
     double sum_ = 0;
     double weight_ = 0;
     std::vector<Sample> samples_;
+    std::vector<VertexId> near_;        ///< per sample: a vertex close to it at the start
     std::vector<std::uint32_t> first_;  ///< per face
     std::vector<Member> members_;
     std::vector<Spoke> spokes_;

@@ -6,14 +6,19 @@
 #include "delmesh/mesh/edits.hpp"
 #include "delmesh/simplify/progressive_mesh.hpp"
 #include "simplify/decimator.hpp"
+#include "simplify/sweeper.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace delmesh {
 namespace {
+
+/// Meshes so small are not worth sweeping.
+constexpr double least_far = 256;
 
 void check_options(const SimplifyOptions& options) {
     const auto refuse = [](const std::string& why) { throw Error(ErrorCode::bad_argument, why); };
@@ -99,10 +104,10 @@ void drop_isolated(Mesh& mesh) {
         if (mesh.is_live(VertexId(v)) && !mesh.halfedge(VertexId(v)).valid()) remove_isolated(mesh, VertexId(v));
 }
 
-Mesh without_dead(const Mesh& mesh) {
+Mesh without_dead(const Mesh& mesh, const Numbering& numbering) {
     Mesh copy = mesh;
     drop_isolated(copy);
-    compact(copy);
+    renumber(copy, numbering.in_order_of_names(copy));
     return copy;
 }
 
@@ -138,25 +143,53 @@ std::string_view name(Obstacle obstacle) {
 
 namespace {
 
+bool remesh_first(Mesh& mesh, const SimplifyOptions& options, SimplifyReport& report, const Context* context) {
+    if (certify(mesh, context).certified) return true;
+    report.remesh = make_delaunay(mesh, options.remesh, context);
+    if (report.remesh->stop == StopReason::done) return true;
+    report.stop = is_cancelled(context) ? SimplifyStop::cancelled : SimplifyStop::not_delaunay;
+    return false;
+}
+
+/// While there is a long way to go: in sweeps.
+std::unique_ptr<Sweeper> sweep_first(Mesh& mesh, const Tuning& tuning, const SimplifyOptions& options,
+                                     std::size_t target, Numbering& numbering, const Context* context) {
+    const double far = std::max(least_far, tuning.sweep_until * static_cast<double>(target));
+    if (!(static_cast<double>(mesh.vertex_count()) > far)) return nullptr;
+    drop_isolated(mesh);
+    auto sweeper = std::make_unique<Sweeper>(mesh, tuning, options.remesh.precision, numbering);
+    sweeper->run(static_cast<std::size_t>(far), context);
+    return sweeper;
+}
+
 SimplifyReport run(Mesh& mesh, const SimplifyOptions& options, ProgressiveMesh* record, const Context* context) {
-    Recorder recorder;
     check_options(options);
+    Recorder recorder;
     SimplifyReport report;
     report.input_vertices = mesh.vertex_count();
     const double diagonal = bounding_diagonal(mesh);
-    if (!certify(mesh, context).certified) {
-        report.remesh = make_delaunay(mesh, options.remesh, context);
-        if (report.remesh->stop != StopReason::done) {
-            report.stop = is_cancelled(context) ? SimplifyStop::cancelled : SimplifyStop::not_delaunay;
-            if (record != nullptr) *record = {mesh, {}};
-            return report;
-        }
+    if (!remesh_first(mesh, options, report, context)) {
+        if (record != nullptr) *record = {mesh, {}};
+        return report;
     }
-    Decimator decimator(mesh, tuning_for(options), {options.max_quadric_error_rel * diagonal, options.remesh.precision},
-                        record != nullptr ? &recorder : nullptr);
     const bool refit = options.refit && options.max_quadric_error_rel == 0 && options.placement == Placement::best;
     const std::vector<std::size_t> targets = find_targets(options, report.input_vertices);
-    if (refit) decimator.follow_samples(report.input_vertices, samples_for(targets.front()));
+    const Tuning tuning = tuning_for(options);
+    Numbering numbering(mesh);
+    std::optional<SurfaceSamples> samples;
+    if (refit) samples.emplace(mesh, report.input_vertices, local_scale(mesh), samples_for(targets.front()));
+    std::unique_ptr<Sweeper> sweeper;
+    // All steps of a progressive mesh are levels, so they are made with all care.
+    if (refit && record == nullptr) sweeper = sweep_first(mesh, tuning, options, targets.front(), numbering, context);
+    Decimator decimator(mesh, tuning, {options.max_quadric_error_rel * diagonal, options.remesh.precision},
+                        record != nullptr ? &recorder : nullptr);
+    if (samples) decimator.follow_samples(std::move(*samples));
+    if (sweeper) {
+        decimator.continue_from(*sweeper);
+        report.collapses = sweeper->collapses();
+        report.moves = decimator.refit({.rounds = 1}, context);
+        sweeper.reset();
+    }
     for (const std::size_t target : targets) {
         decimator.guard_for(target);
         if (refit) report.moves += refit_on_the_way(decimator, report.input_vertices, target, context);
@@ -166,11 +199,12 @@ SimplifyReport run(Mesh& mesh, const SimplifyOptions& options, ProgressiveMesh* 
         report.stop = report.levels.back().stop;
         const bool last = target == targets.back() || report.stop == SimplifyStop::cancelled;
         if (last) break;
-        if (options.on_level) options.on_level(without_dead(mesh), report.levels.back());
+        if (options.on_level) options.on_level(without_dead(mesh, numbering), report.levels.back());
     }
-    report.collapses = decimator.counts().collapses;
+    report.collapses += decimator.counts().collapses;
     drop_isolated(mesh);
-    CompactMap map = compact(mesh);
+    CompactMap map = numbering.in_order_of_names(mesh);
+    numbering.renumber(mesh, map);
     if (record != nullptr) *record = {mesh, recorder.steps(std::move(map.vertex), mesh.vertex_count())};
     if (options.on_level) options.on_level(mesh, report.levels.back());
     report_progress(context, "simplify", 1);

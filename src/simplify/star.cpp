@@ -28,34 +28,27 @@ public:
     }
 
     void add_end(VertexId vertex) {
-        star_.ring.push_back(
-            {.vertex = vertex, .face = {}, .outer = {}, .point = local(vertex), .old_normal = {}, .outer_point = {}});
+        Star::Corner& corner = star_.ring.emplace_back();
+        corner.vertex = vertex;
+        corner.point = local(vertex);
     }
 
 private:
     [[nodiscard]] Vec3 local(VertexId v) const { return star_.frame.to_local(mesh_.point(v)); }
 
     void add_corner(HalfedgeId at, const Vec3& centre) {
-        Star::Corner corner{.vertex = mesh_.target(at),
-                            .face = Mesh::face(at),
-                            .outer = {},
-                            .point = {},
-                            .old_normal = {},
-                            .outer_point = {}};
-        corner.point = local(corner.vertex);
-        const Vec3 next = local(mesh_.apex(at));
-        corner.old_normal = cross(corner.point - centre, next - centre);
-        const HalfedgeId outside = mesh_.twin(Mesh::next(at));
-        if (outside.valid()) {
-            corner.outer = mesh_.apex(outside);
-            const Vec3 o = corner.outer_point = local(corner.outer);
-            const Vec3 a = corner.point - o;
-            const Vec3 b = next - o;
-            corner.outer_cot = dot(a, b) / std::sqrt(squared_norm(cross(a, b)));
-        }
-        star_.ring.push_back(corner);
+        Star::Corner& corner = star_.ring.emplace_back();
+        corner.vertex = mesh_.target(at);
+        corner.face = Mesh::face(at);
+        corner.across = Mesh::next(at);
+        corner.point = corner.vertex == next_ ? next_point_ : local(corner.vertex);
+        next_ = mesh_.apex(at);
+        next_point_ = local(next_);
+        corner.old_normal = cross(corner.point - centre, next_point_ - centre);
     }
 
+    VertexId next_;  ///< the end of the face before
+    Vec3 next_point_;
     const Mesh& mesh_;
     Star& star_;
 };
@@ -113,6 +106,7 @@ bool gather(const Mesh& mesh, HalfedgeId h, double scale, Star& star) {
     star.u_point = {};
     star.v_point = star.frame.to_local(mesh.point(star.v));
     star.closed = !u_open && !v_open;
+    star.has_outers = false;
     star.ring.clear();
     star.dying_count = 0;
     star.dying_face[0] = Mesh::face(h);
@@ -129,6 +123,7 @@ void gather(const Mesh& mesh, VertexId v, double scale, Star& star) {
     star.frame = {scale, 1 / scale, mesh.point(v)};
     star.u_point = star.v_point = {};
     star.closed = !mesh.is_boundary(v);
+    star.has_outers = false;
     star.ring.clear();
     star.dying_count = 0;
     Gatherer gatherer(mesh, star);
@@ -160,13 +155,14 @@ FaceAngles face_angles(const Star::Corner& corner, const Vec3& a, const Vec3& b)
     return {dot(a, b) * inverse, -dot(a, side) * inverse, dot(b, side) * inverse, !kept};
 }
 
-}  // namespace
-
-Blocker find_blocker(const Star& star, const Vec3& w, std::size_t& first) {
+/// Of the faces and edges at w.
+Blocker find_inner_blocker(Star& star, const Vec3& w, std::size_t& first) {
     const std::size_t faces = star.face_count();
     if (first >= faces) first = 0;
     const auto angles = [&](std::size_t i) {
-        return face_angles(star.ring[i], star.ring[i].point - w, star.ring[star.after(i)].point - w);
+        const FaceAngles found = face_angles(star.ring[i], star.ring[i].point - w, star.ring[star.after(i)].point - w);
+        star.ring[i].cot_at_w = found.at_w;
+        return found;
     };
     // Face i holds the angle at ring[i], opposite to the spoke to ring[i+1], and the other way round.
     FaceAngles start = angles(first);
@@ -174,7 +170,6 @@ Blocker find_blocker(const Star& star, const Vec3& w, std::size_t& first) {
     std::size_t i = first;
     for (std::size_t step = 0;; ++step) {
         if (previous.turned) return first = i, Blocker::fold;
-        if (!(previous.at_w + star.ring[i].outer_cot >= -rounding_allowance)) return first = i, Blocker::subtending;
         const bool at_end = !star.closed && i + 1 == faces;
         if (!star.closed && i == 0 && !(previous.at_b >= -rounding_allowance)) return first = i, Blocker::incident;
         if (at_end && !(previous.at_a >= -rounding_allowance)) return first = i, Blocker::incident;
@@ -189,6 +184,33 @@ Blocker find_blocker(const Star& star, const Vec3& w, std::size_t& first) {
         previous = current;
         i = next;
     }
+}
+
+}  // namespace
+
+void find_outers(const Mesh& mesh, Star& star) {
+    if (star.has_outers) return;
+    star.has_outers = true;
+    for (std::size_t i = 0; i < star.face_count(); ++i) {
+        Star::Corner& corner = star.ring[i];
+        const HalfedgeId outside = mesh.twin(corner.across);
+        if (!outside.valid()) continue;
+        corner.outer = mesh.apex(outside);
+        const Vec3 o = corner.outer_point = star.frame.to_local(mesh.point(corner.outer));
+        const Vec3 a = corner.point - o;
+        const Vec3 b = star.ring[star.after(i)].point - o;
+        corner.outer_cot = dot(a, b) / std::sqrt(squared_norm(cross(a, b)));
+    }
+}
+
+Blocker find_blocker(const Mesh& mesh, Star& star, const Vec3& w, std::size_t& first) {
+    const Blocker blocker = find_inner_blocker(star, w, first);
+    if (blocker != Blocker::none) return blocker;
+    find_outers(mesh, star);
+    for (std::size_t i = 0; i < star.face_count(); ++i)
+        if (!(star.ring[i].cot_at_w + star.ring[i].outer_cot >= -rounding_allowance))
+            return first = i, Blocker::subtending;
+    return Blocker::none;
 }
 
 bool keeps_delaunay(const Mesh& mesh, const Star& star, const Vec3& w) {

@@ -26,10 +26,13 @@ inline constexpr std::size_t blocker_count = 9;
 struct Star {
     struct Corner {
         VertexId vertex;
-        FaceId face;           ///< the face that starts here; not valid at the end of an open star
+        FaceId face;          ///< the face that starts here; not valid at the end of an open star
+        HalfedgeId across;    ///< the ring edge that starts here, from inside
+        Vec3 point;           ///< local
+        Vec3 old_normal;      ///< of the face that starts here, before the collapse; twice its area long
+        double cot_at_w = 0;  ///< of the face that starts here, as `find_blocker` found it last
+        // From here on: once `find_outers` was called.
         VertexId outer;        ///< the vertex behind the ring edge that starts here; not valid at the boundary
-        Vec3 point;            ///< local
-        Vec3 old_normal;       ///< of the face that starts here, before the collapse; twice its area long
         Vec3 outer_point;      ///< local
         double outer_cot = 0;  ///< cotangent of the angle at `outer`; 0 at the boundary
     };
@@ -38,6 +41,7 @@ struct Star {
     Frame frame;
     Vec3 u_point, v_point;  ///< local
     bool closed = false;
+    bool has_outers = false;
     std::vector<Corner> ring;
     /// Normals of the one or two faces that die, and the local point u that lies in both.
     Vec3 dying[2];
@@ -56,11 +60,15 @@ struct Star {
 /// The star of a vertex as it is: nothing dies.
 void gather(const Mesh& mesh, VertexId v, double scale, Star& star);
 
+/// Looks up what lies behind the ring, unless that is known. Most stars are given up before that is needed.
+void find_outers(const Mesh& mesh, Star& star);
+
 /// The first condition that w (local) violates, in floating point; faces are tried from `first` on, which is set to the
 /// offending one. Within rounding, `none` is only a proposal: `keeps_delaunay` decides.
-[[nodiscard]] Blocker find_blocker(const Star& star, const Vec3& w, std::size_t& first);
+[[nodiscard]] Blocker find_blocker(const Mesh& mesh, Star& star, const Vec3& w, std::size_t& first);
 
-/// Exact: every edge at w and every ring edge is Delaunay with w at the given point of the mesh's space.
+/// Exact; requires `find_outers`: every edge at w and every ring edge is Delaunay with w at the given point of the
+/// mesh's space.
 [[nodiscard]] bool keeps_delaunay(const Mesh& mesh, const Star& star, const Vec3& w);
 
 }  // namespace delmesh

@@ -17,8 +17,11 @@ struct Tuning {
     double density = 12;      ///< ... and so many more for each vertex of the finest level, as far as there are
     double reach = 4.5;       ///< no sample gets farther away than this many times the root of the mean square
     double guard = 3;         ///< ... once fewer than this many times the vertices asked for are left
-    bool paper = false;       ///< the paper's placement, with quadrics that add up (else those of the current faces)
-    bool constrained = true;  ///< false: for comparison only; the result is not Delaunay
+    double sweep_until = 2;   ///< while more than so many times the vertices asked for are left, edges go in sweeps ...
+    double sweep_part = 0.4;  ///< ... each of which tries the cheapest so many of those that may be free
+    double sweep_reach = 2.5;  ///< ... and moves no end farther off than this many times the usual (root mean square)
+    bool paper = false;        ///< the paper's placement, with quadrics that add up (else those of the current faces)
+    bool constrained = true;   ///< false: for comparison only; the result is not Delaunay
 
     /// Section 5 of the paper: the quadrics of Garland and Heckbert, and nothing else.
     static Tuning of_the_paper(double crease_cosine) {

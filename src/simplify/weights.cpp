@@ -3,10 +3,14 @@
 #include "simplify/frame.hpp"
 #include "simplify/walk.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace delmesh {
 namespace {
+
+/// Where so small a part is left of what was taken away, rounding may have eaten it.
+constexpr double cancelled = 1e-8;
 
 /// Adds planes through the origin.
 class PlaneAdder {
@@ -34,6 +38,11 @@ private:
 
 }  // namespace
 
+double mean_square(const Quadric& planes) {
+    const double trace = planes.trace();
+    return trace > 0 ? std::max(0.0, planes.c) / trace : 0;
+}
+
 VertexWeights::VertexWeights(const Mesh& mesh, double scale, const Tuning& tuning)
     : mesh_(mesh),
       scale_(scale),
@@ -46,10 +55,57 @@ VertexWeights::VertexWeights(const Mesh& mesh, double scale, const Tuning& tunin
     }
 }
 
+Quadric VertexWeights::merged_history(const Star& star, const Vec3& w) const {
+    Quadric merged = history(star.u).moved_to(w);
+    merged += history(star.v).moved_to(w - star.v_point);
+    return merged;
+}
+
+void VertexWeights::renumber(const std::vector<VertexId>& ids) {
+    std::vector<Quadric> history(mesh_.vertex_count());
+    std::vector<Planes> current(mesh_.vertex_count());
+    for (std::size_t v = 0; v < ids.size(); ++v) {
+        if (!ids[v].valid()) continue;
+        history[ids[v].index()] = history_[v];
+        current[ids[v].index()] = current_[v];
+    }
+    history_.swap(history);
+    current_.swap(current);
+}
+
 void VertexWeights::refresh(VertexId v) {
     if (tuning_.paper) return;
     const Quadric q = planes_at(v);
     current_[v.index()] = {q.xx, q.xy, q.xz, q.yy, q.yz, q.zz};
+}
+
+void VertexWeights::replace_star(const Star& star, const Vec3& w, VertexId left, VertexId right) {
+    if (tuning_.paper) return;
+    if (!star.closed || tuning_.crease_cosine > -1) {
+        refresh(star.u);
+        for (const Star::Corner& corner : star.ring) refresh(corner.vertex);
+        return;
+    }
+    constexpr double weight = 0.25;
+    double largest2 = 0;
+    Planes& centre = current_[star.u.index()];
+    centre = {};
+    current_[left.index()].add(star.dying[0], -weight);
+    if (right.valid()) current_[right.index()].add(star.dying[1], -weight);
+    for (std::size_t i = 0; i < star.ring.size(); ++i) {
+        const Star::Corner& corner = star.ring[i];
+        const Star::Corner& next = star.ring[star.after(i)];
+        Planes change;
+        change.add(cross(corner.point - w, next.point - w), weight);
+        centre += change;
+        change.add(corner.old_normal, -weight);
+        largest2 = std::max(largest2, squared_norm(corner.old_normal));
+        current_[corner.vertex.index()] += change;
+        current_[next.vertex.index()] += change;
+    }
+    for (const Star::Corner& corner : star.ring)
+        if (mesh_.is_boundary(corner.vertex) || !(current_[corner.vertex.index()].trace() > cancelled * largest2))
+            refresh(corner.vertex);
 }
 
 Quadric VertexWeights::of_edge(VertexId u, VertexId v, const Vec3& to_v) const {

@@ -3,11 +3,15 @@
 
 #include "delmesh/mesh/mesh.hpp"
 #include "delmesh/simplify/quadric.hpp"
+#include "simplify/star.hpp"
 #include "simplify/tuning.hpp"
 
 #include <vector>
 
 namespace delmesh {
+
+/// The mean square of the distances, local unit, of the origin to the planes.
+[[nodiscard]] double mean_square(const Quadric& planes);
 
 /// All quadrics are local: the origin is the vertex's own place, the unit 1/scale of the mesh's.
 class VertexWeights {
@@ -19,15 +23,34 @@ public:
     /// Planes of the original faces that v stands for.
     [[nodiscard]] const Quadric& history(VertexId v) const { return history_[v.index()]; }
 
+    /// What the vertex that the edge of the star is merged into stands for, w (local) as its origin.
+    [[nodiscard]] Quadric merged_history(const Star& star, const Vec3& w) const;
+
     /// v stands for the planes of `merged` from now on.
     void set_history(VertexId v, const Quadric& merged) { history_[v.index()] = merged; }
     /// To be called when the faces at v have changed.
     void refresh(VertexId v);
+    /// The vertices have got other ids.
+    void renumber(const std::vector<VertexId>& ids);
+    /// To be called when the edge of the star has been collapsed to w (local), between `left` and `right` (not valid at
+    /// the boundary): brings the quadrics of w and of the ring up to date from what has changed.
+    void replace_star(const Star& star, const Vec3& w, VertexId left, VertexId right);
 
 private:
     /// A of a quadric whose b and c are zero: all planes go through the vertex.
     struct Planes {
         double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+
+        void add(const Vec3& normal, double weight) {
+            const Vec3 n = normal * weight;
+            xx += n.x * normal.x, xy += n.x * normal.y, xz += n.x * normal.z;
+            yy += n.y * normal.y, yz += n.y * normal.z, zz += n.z * normal.z;
+        }
+        [[nodiscard]] double trace() const { return xx + yy + zz; }
+        Planes& operator+=(const Planes& o) {
+            xx += o.xx, xy += o.xy, xz += o.xz, yy += o.yy, yz += o.yz, zz += o.zz;
+            return *this;
+        }
     };
     [[nodiscard]] Quadric planes_at(VertexId v) const;
 

@@ -83,9 +83,23 @@ TEST_P(Edits, RandomCollapsesKeepTopology) {
         if (!closed) {
             EXPECT_GE(boundary_edges(mesh), 3u);
         }
-        compact(mesh);
+        Mesh other = mesh;
+        CompactMap map = compact(mesh);
         EXPECT_EQ(validate(mesh), "");
         EXPECT_EQ(euler(mesh), chi);
+        // The same, the other way round.
+        for (VertexId& v : map.vertex)
+            if (v.valid()) v = VertexId(mesh.vertex_count() - 1 - v.index());
+        for (FaceId& f : map.face)
+            if (f.valid()) f = FaceId(mesh.face_count() - 1 - f.index());
+        renumber(other, map);
+        EXPECT_EQ(validate(other), "");
+        ASSERT_EQ(other.face_count(), mesh.face_count());
+        for (std::size_t h = 0; h < mesh.halfedge_count(); ++h) {
+            const std::size_t there = 3 * (mesh.face_count() - 1 - h / 3) + h % 3;
+            EXPECT_EQ(other.origin(HalfedgeId(there)).index(),
+                      mesh.vertex_count() - 1 - mesh.origin(HalfedgeId(h)).index());
+        }
         if (closed) {
             EXPECT_LE(mesh.vertex_count(), 9u) << "a torus goes down to seven or little more";
         }

@@ -4,6 +4,8 @@
 #include "delmesh/mesh/shapes.hpp"
 #include "delmesh/simplify/simplify.hpp"
 #include "simplify/decimator.hpp"
+#include "simplify/frame.hpp"
+#include "simplify/sweeper.hpp"
 #include "simplify/triangle_point.hpp"
 #include "support/random.hpp"
 
@@ -80,6 +82,42 @@ TEST_P(SamplesOf, AreAllKeptAndKnowTheirDistanceAfterDecimation) {
         }
     }
     EXPECT_EQ(seen, 3 * (vertices + faces)) << "every sample lies on one face";
+}
+
+/// After sweeps, which leave the samples alone, each is attached to a face that is nearly the nearest of all.
+TEST_P(SamplesOf, AreFoundAgainAfterSweeps) {
+    Mesh mesh = delaunay_sample(GetParam(), 3000);
+    const std::size_t all = mesh.vertex_count() + mesh.face_count();
+    SurfaceSamples samples(mesh, mesh.vertex_count(), local_scale(mesh), 1'000'000);
+    Numbering numbering(mesh);
+    Sweeper sweeper(mesh, Tuning{}, Precision::float64, numbering);
+    sweeper.run(mesh.vertex_count() / 5, nullptr);
+    const double scale = local_scale(mesh);
+    samples.reattach(mesh, scale, sweeper.merged_into());
+    std::size_t seen = 0;
+    std::size_t nearest = 0;
+    Star star;
+    for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+        gather(mesh, VertexId(v), scale, star);
+        samples.gather(star);
+        for (const SurfaceSamples::Member& m : samples.members()) {
+            const TrianglePoint own =
+                nearest_on_triangle(m.point, {}, star.ring[m.face].point, star.ring[star.after(m.face)].point);
+            EXPECT_NEAR(std::sqrt(m.distance2), std::sqrt(own.distance2), 1e-6);
+            double least = own.distance2;
+            for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+                const auto corner = [&](std::size_t i) {
+                    return star.frame.to_local(mesh.point(mesh.corners()[3 * f + i]));
+                };
+                least = std::min(least, nearest_on_triangle(m.point, corner(0), corner(1), corner(2)).distance2);
+            }
+            nearest += std::sqrt(own.distance2) <= std::sqrt(least) + 1e-6 ? 1 : 0;
+            ++seen;
+        }
+    }
+    EXPECT_EQ(seen, 3 * all) << "every sample lies on one face";
+    EXPECT_GT(static_cast<double>(nearest), 0.98 * static_cast<double>(seen));
+    EXPECT_GT(samples.mean2(), 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, SamplesOf, testing::Values("noisy-sphere", "terrain", "torus"));

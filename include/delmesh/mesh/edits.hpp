@@ -61,6 +61,10 @@ struct CompactMap {
 /// Removes dead elements; the order of the living ones is kept. Cost: O(size).
 CompactMap compact(Mesh& mesh);
 
+/// Gives the living elements the ids that the map says, which are those from 0 on without gaps, and removes dead ones.
+/// Each face keeps its first corner. Cost: O(size).
+void renumber(Mesh& mesh, const CompactMap& map);
+
 /// Makes room for growth, to avoid reallocation. Never required.
 void reserve(Mesh& mesh, std::size_t vertices, std::size_t faces);
 

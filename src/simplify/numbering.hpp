@@ -1,0 +1,42 @@
+#pragma once
+// Elements are renumbered on the way, so that neighbours lie close in memory; what they were called at first is kept.
+
+#include "delmesh/mesh/edits.hpp"
+#include "delmesh/mesh/mesh.hpp"
+
+#include <vector>
+
+namespace delmesh {
+
+class Numbering {
+public:
+    /// As the mesh is, all are called what they are.
+    explicit Numbering(const Mesh& mesh);
+
+    /// The name of the vertex that now has the id v; none for none.
+    [[nodiscard]] VertexId name(VertexId v) const { return v.valid() ? vertex_[v.index()] : v; }
+    /// As many names as the mesh had vertices at first.
+    [[nodiscard]] std::size_t vertex_names() const { return vertex_names_; }
+    /// The present ids by name; not valid for what is gone.
+    [[nodiscard]] std::vector<VertexId> ids() const;
+
+    /// Renumbers the mesh, and remembers.
+    void renumber(Mesh& mesh, const CompactMap& map);
+    /// Ids from 0 on for what lives, in the order of the names.
+    [[nodiscard]] CompactMap in_order_of_names(const Mesh& mesh) const;
+
+private:
+    std::vector<VertexId> vertex_;
+    std::vector<FaceId> face_;
+    std::size_t vertex_names_;
+    std::size_t face_names_;
+};
+
+/// Ids from 0 on for what lives, by place along a curve that fills space: what is close by mostly gets close ids.
+/// Source: Morton 1966.
+[[nodiscard]] CompactMap in_order_of_place(const Mesh& mesh, double scale);
+
+/// Ids from 0 on for what lives, in the present order.
+[[nodiscard]] CompactMap in_present_order(const Mesh& mesh);
+
+}  // namespace delmesh

@@ -1,0 +1,224 @@
+#include "simplify/sweeper.hpp"
+
+#include "delmesh/mesh/edits.hpp"
+#include "simplify/edge_cost.hpp"
+#include "simplify/frame.hpp"
+#include "simplify/triangle_point.hpp"
+#include "simplify/walk.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace delmesh {
+namespace {
+
+/// So many keys are enough to tell how they are distributed.
+constexpr std::size_t keys_looked_at = 100'000;
+/// Half-edges between two looks at the context.
+constexpr std::size_t report_interval = 1 << 16;
+/// After so many sweeps that hardly collapsed anything, others must go on.
+constexpr int poor_in_a_row = 3;
+/// A squared distance, local unit, that may be all rounding.
+constexpr double rounding2 = 1e-14;
+/// Gaps are closed when less than this part of the vertices is left.
+constexpr double sparse = 0.6;
+
+Tuning without_search(Tuning tuning) {
+    tuning.bisections = 0;
+    tuning.sqp_steps = 0;
+    return tuning;
+}
+
+const Mesh& reordered(Mesh& mesh, Numbering& numbering, double scale) {
+    numbering.renumber(mesh, in_order_of_place(mesh, scale));
+    return mesh;
+}
+
+/// How far the two ends of the edge come to lie from the surface when it is merged to w; squared, local unit.
+double find_drift2(const Star& star, const Vec3& w) {
+    double of_u = std::numeric_limits<double>::infinity();
+    double of_v = of_u;
+    for (std::size_t i = 0; i < star.face_count(); ++i) {
+        const Vec3& a = star.ring[i].point;
+        const Vec3& b = star.ring[star.after(i)].point;
+        of_u = std::min(of_u, nearest_on_triangle(star.u_point, w, a, b).distance2);
+        of_v = std::min(of_v, nearest_on_triangle(star.v_point, w, a, b).distance2);
+    }
+    return std::max(of_u, of_v);
+}
+
+}  // namespace
+
+Sweeper::Sweeper(Mesh& mesh, const Tuning& tuning, Precision precision, Numbering& numbering)
+    : mesh_(mesh),
+      tuning_(without_search(tuning)),
+      scale_(local_scale(mesh)),
+      precision_(precision),
+      numbering_(numbering),
+      placer_(mesh, tuning_),
+      weights_(reordered(mesh, numbering, scale_), scale_, tuning_),
+      vertices_(mesh.vertex_count()),
+      key_(mesh.halfedge_count(), -1),
+      failed_(mesh.halfedge_count()),
+      witness_(mesh.halfedge_count()),
+      changed_(mesh.vertex_count()),
+      merged_(mesh.vertex_count()),
+      parent_(numbering.vertex_names()) {
+    for (std::size_t v = 0; v < parent_.size(); ++v) parent_[v] = VertexId(v);
+}
+
+void Sweeper::run(std::size_t vertices, const Context* context) {
+    const std::size_t start = vertices_;
+    int poor = 0;
+    while (vertices_ > vertices && !is_cancelled(context)) {
+        ++sweep_;
+        const std::size_t before = vertices_;
+        sweep(vertices, choose_limit(), context);
+        if (before - vertices_ <= vertices_ / 256) {
+            if (++poor == poor_in_a_row) break;
+            continue;  // what was blocked waits now, and others have their turn
+        }
+        poor = 0;
+        const double usual2 = drift_sum_ / static_cast<double>(before - vertices_);
+        drift_limit2_ = std::max(tuning_.sweep_reach * tuning_.sweep_reach * usual2, rounding2);
+        drift_sum_ = 0;
+        if (static_cast<double>(vertices_) < sparse * static_cast<double>(mesh_.vertex_count())) tidy();
+        report_progress(context, "simplify",
+                        static_cast<double>(start - vertices_) / static_cast<double>(start - vertices));
+    }
+    tidy();
+}
+
+/// A quantile of the costs of the edges that do not wait.
+float Sweeper::choose_limit() {
+    some_keys_.clear();
+    const std::size_t stride = 1 + mesh_.halfedge_count() / keys_looked_at;
+    for (std::size_t i = 0; i < mesh_.halfedge_count(); i += stride) {
+        const HalfedgeId h(i);
+        if (mesh_.origin(h).valid() && mesh_.names_edge(h) && !is_waiting(h)) some_keys_.push_back(key_of(h));
+    }
+    if (some_keys_.empty()) return 0;
+    const auto at =
+        some_keys_.begin() + static_cast<std::ptrdiff_t>(tuning_.sweep_part * static_cast<double>(some_keys_.size()));
+    std::nth_element(some_keys_.begin(), at, some_keys_.end());
+    return *at;
+}
+
+/// At most one edge is merged into each vertex, so that no place gets ahead of the others.
+void Sweeper::sweep(std::size_t vertices, float limit, const Context* context) {
+    for (std::size_t i = 0; i < mesh_.halfedge_count() && vertices_ > vertices; ++i) {
+        if (i % report_interval == 0 && is_cancelled(context)) return;
+        const HalfedgeId h(i);
+        const VertexId u = mesh_.origin(h);
+        if (!u.valid() || merged_[u.index()] == sweep_ || !mesh_.names_edge(h)) continue;
+        if (merged_[mesh_.target(h).index()] == sweep_ || is_waiting(h)) continue;
+        if (key_of(h) <= limit) visit(h, limit);
+    }
+}
+
+float Sweeper::key_of(HalfedgeId h) {
+    float& key = key_[h.index()];
+    if (key < 0) key = static_cast<float>(lowest_cost(edge_cost(mesh_, weights_, h, scale_, tuning_)));
+    return key;
+}
+
+/// Nothing has changed at the condition that failed.
+bool Sweeper::is_waiting(HalfedgeId h) const {
+    const std::uint32_t failed = failed_[h.index()];
+    return failed > 0 && changed_[witness_[h.index()].index()] < failed;
+}
+
+void Sweeper::wait(HalfedgeId h, VertexId witness) {
+    failed_[h.index()] = ++now_;
+    witness_[h.index()] = witness;
+}
+
+void Sweeper::visit(HalfedgeId h, float limit) {
+    if (!gather(mesh_, h, scale_, star_)) return wait(h, star_.u);
+    EdgeCost cost = edge_cost(mesh_, weights_, h, scale_, tuning_);
+    add_volume(star_, tuning_, cost);
+    const auto place = placer_.best(star_, cost);
+    if (!place) return wait(h, star_.ring[star_.after(placer_.witness())].vertex);
+    if (place->cost > tuning_.slack * limit) {
+        key_[h.index()] = static_cast<float>(place->cost);
+        return;
+    }
+    Vec3 w = star_.frame.to_mesh(place->point);
+    if (precision_ == Precision::float32) w = round_to_float(w);
+    if (!keeps_delaunay(mesh_, star_, w)) return wait(h, star_.u);
+    const double drift2 = find_drift2(star_, star_.frame.to_local(w));
+    if (drift2 > drift_limit2_) {
+        key_[h.index()] = static_cast<float>(place->cost);
+        return;
+    }
+    drift_sum_ += drift2;
+    accept(h, w);
+}
+
+void Sweeper::accept(HalfedgeId h, const Vec3& w) {
+    const VertexId kept = star_.u;
+    const VertexId gone = star_.v;
+    const HalfedgeId t = mesh_.twin(h);
+    const VertexId left = mesh_.apex(h);
+    const VertexId right = t.valid() ? mesh_.apex(t) : VertexId();
+    const Vec3 local = star_.frame.to_local(w);
+    const Quadric merged = weights_.merged_history(star_, local);
+    worst_error2_ = std::max(worst_error2_, mean_square(merged));
+    collapse(mesh_, h, w);
+    weights_.set_history(kept, merged);
+    weights_.replace_star(star_, local, left, right);
+    parent_[numbering_.name(gone).index()] = numbering_.name(kept);
+    --vertices_;
+    ++collapses_;
+    merged_[kept.index()] = sweep_;
+    changed_[kept.index()] = changed_[gone.index()] = now_;
+    for (const Star::Corner& corner : star_.ring) changed_[corner.vertex.index()] = now_;
+    each_outgoing(mesh_, kept, [&](HalfedgeId at) { key_[at.index()] = key_[Mesh::prev(at).index()] = -1; });
+}
+
+/// Closes the gaps between the ids.
+void Sweeper::tidy() {
+    const CompactMap map = in_present_order(mesh_);
+    for (std::size_t h = 0; h < key_.size(); ++h) {
+        const FaceId face = map.face[h / 3];
+        if (!face.valid()) continue;
+        const std::size_t to = 3 * face.index() + h % 3;
+        const VertexId witness = failed_[h] > 0 ? map.vertex[witness_[h].index()] : VertexId();
+        key_[to] = key_[h];
+        failed_[to] = witness.valid() ? failed_[h] : 0;
+        witness_[to] = witness;
+    }
+    for (std::size_t v = 0; v < changed_.size(); ++v) {
+        const VertexId to = map.vertex[v];
+        if (!to.valid()) continue;
+        changed_[to.index()] = changed_[v];
+        merged_[to.index()] = merged_[v];
+    }
+    numbering_.renumber(mesh_, map);
+    weights_.renumber(map.vertex);
+    key_.resize(mesh_.halfedge_count());
+    failed_.resize(mesh_.halfedge_count());
+    witness_.resize(mesh_.halfedge_count());
+    changed_.resize(mesh_.vertex_count());
+    merged_.resize(mesh_.vertex_count());
+}
+
+double Sweeper::worst_error() const {
+    return std::sqrt(worst_error2_) / scale_;
+}
+
+std::vector<VertexId> Sweeper::merged_into() const {
+    const std::vector<VertexId> ids = numbering_.ids();
+    std::vector<VertexId> last = parent_;
+    for (std::size_t v = 0; v < last.size(); ++v) {
+        // Halves the way for all that come here later.
+        VertexId at(v);
+        while (last[at.index()] != at) at = last[at.index()] = last[last[at.index()].index()];
+        last[v] = at;
+    }
+    for (VertexId& v : last) v = ids[v.index()];
+    return last;
+}
+
+}  // namespace delmesh

@@ -1,0 +1,72 @@
+#pragma once
+// The first part of a long way: cheap collapses in sweeps over the whole mesh, each one checked exactly.
+
+#include "delmesh/base/context.hpp"
+#include "delmesh/mesh/mesh.hpp"
+#include "delmesh/mesh/rounding.hpp"
+#include "simplify/numbering.hpp"
+#include "simplify/placement.hpp"
+#include "simplify/star.hpp"
+#include "simplify/tuning.hpp"
+#include "simplify/weights.hpp"
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace delmesh {
+
+/// Collapses what costs less than a limit that grows from sweep to sweep, in the order of memory and not of cost: no
+/// queue, no lists of what waits for what, no samples. The mesh is Delaunay after each collapse. For the part of the
+/// way where so many edges are cheap that the order among them does not matter.
+class Sweeper {
+public:
+    /// The mesh must be Delaunay, without isolated vertices, and must outlive the sweeper. It gets other ids.
+    Sweeper(Mesh& mesh, const Tuning& tuning, Precision precision, Numbering& numbering);
+
+    /// Collapses until so many vertices are left, hardly anything can be collapsed any more, or the context is
+    /// cancelled. Leaves no gaps between the ids.
+    void run(std::size_t vertices, const Context* context);
+
+    [[nodiscard]] std::size_t collapses() const { return collapses_; }
+    /// As `SimplifyReport::quadric_error`.
+    [[nodiscard]] double worst_error() const;
+    [[nodiscard]] const VertexWeights& weights() const { return weights_; }
+    /// By name, the present id of the vertex that each was merged into.
+    [[nodiscard]] std::vector<VertexId> merged_into() const;
+
+private:
+    [[nodiscard]] float key_of(HalfedgeId h);
+    [[nodiscard]] bool is_waiting(HalfedgeId h) const;
+    [[nodiscard]] float choose_limit();
+    void sweep(std::size_t vertices, float limit, const Context* context);
+    void visit(HalfedgeId h, float limit);
+    void wait(HalfedgeId h, VertexId witness);
+    void accept(HalfedgeId h, const Vec3& w);
+    void tidy();
+
+    Mesh& mesh_;
+    const Tuning tuning_;
+    const double scale_;
+    const Precision precision_;
+    Numbering& numbering_;
+    Placer placer_;
+    VertexWeights weights_;
+    Star star_;
+    std::size_t vertices_;
+    std::size_t collapses_ = 0;
+    double worst_error2_ = 0;
+    double drift_limit2_ = std::numeric_limits<double>::infinity();  ///< squared, local unit
+    double drift_sum_ = 0;
+    std::uint32_t now_ = 1;               ///< counts failures
+    std::uint32_t sweep_ = 0;             ///< counts sweeps
+    std::vector<float> key_;              ///< per half-edge that names an edge: its cost; negative: not known
+    std::vector<std::uint32_t> failed_;   ///< per half-edge: when it was last found blocked; 0: never
+    std::vector<VertexId> witness_;       ///< per half-edge: the vertex that must change before it is tried again
+    std::vector<std::uint32_t> changed_;  ///< per vertex: when the faces around it last changed
+    std::vector<std::uint32_t> merged_;   ///< per vertex: the sweep in which something was last merged into it
+    std::vector<VertexId> parent_;        ///< by name, the name of what it was merged into, or its own
+    std::vector<float> some_keys_;
+};
+
+}  // namespace delmesh

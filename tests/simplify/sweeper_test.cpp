@@ -1,0 +1,101 @@
+#include "simplify/sweeper.hpp"
+
+#include "delmesh/measure/certificate.hpp"
+#include "delmesh/measure/distance.hpp"
+#include "delmesh/measure/statistics.hpp"
+#include "delmesh/mesh/shapes.hpp"
+#include "delmesh/mesh/validate.hpp"
+#include "delmesh/simplify/simplify.hpp"
+#include "support/surface_facts.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace delmesh {
+namespace {
+
+Mesh delaunay_sample(std::string_view name, std::size_t faces) {
+    Mesh mesh(make_sample(name, faces));
+    make_delaunay(mesh, SimplifyOptions::default_remesh());
+    return mesh;
+}
+
+class SweeperOn : public testing::TestWithParam<const char*> {};
+
+/// Stopped after one collapse more each time, so that every one of them is seen.
+TEST_P(SweeperOn, EverySingleCollapseLeavesADelaunayMesh) {
+    Mesh mesh = delaunay_sample(GetParam(), 300);
+    const test::SurfaceFacts before = test::examine(to_soup(mesh));
+    for (std::size_t target = mesh.vertex_count(); target-- > 1;) {
+        Numbering numbering(mesh);
+        Sweeper sweeper(mesh, Tuning{}, Precision::float64, numbering);
+        sweeper.run(target, nullptr);
+        EXPECT_EQ(sweeper.collapses(), target + 1 - mesh.vertex_count());
+        if (mesh.vertex_count() > target) break;
+        ASSERT_EQ(validate(mesh), "") << target;
+        const test::SurfaceFacts after = test::examine(to_soup(mesh));
+        ASSERT_EQ(after.fault, "") << target;
+        ASSERT_EQ(after.euler, before.euler) << target;
+        ASSERT_EQ(after.components, before.components) << target;
+        ASSERT_EQ(after.boundary_loops, before.boundary_loops) << target;
+        ASSERT_TRUE(certify(mesh).certified) << target;
+    }
+    EXPECT_LT(mesh.vertex_count(), 2 * before.used_vertices / 3);
+}
+
+/// Gaps are closed on the way, and what is known of edges and vertices must move along.
+TEST_P(SweeperOn, GetsFarAndStaysClose) {
+    Mesh mesh = delaunay_sample(GetParam(), 8000);
+    const Mesh fine = mesh;
+    Numbering numbering(mesh);
+    Sweeper sweeper(mesh, Tuning{}, Precision::float64, numbering);
+    const std::size_t target = mesh.vertex_count() / 8;
+    sweeper.run(target, nullptr);
+    // On plane sides no distance is usual, so sweeping ends early there and leaves the rest to the queue.
+    EXPECT_LE(mesh.vertex_count(), std::string(GetParam()) == "plate" ? fine.vertex_count() * 3 / 4 : target);
+    EXPECT_TRUE(certify(mesh).certified);
+    EXPECT_LT(measure_distance(fine, mesh, {.samples_per_face = 1}).mean.percent, 0.5);
+    const std::vector<VertexId> now = sweeper.merged_into();
+    ASSERT_EQ(now.size(), fine.vertex_count());
+    const double diagonal = bounding_diagonal(fine);
+    std::vector<bool> used(mesh.vertex_count());
+    for (std::size_t v = 0; v < now.size(); ++v) {
+        ASSERT_TRUE(now[v].valid());
+        used[now[v].index()] = true;
+        EXPECT_LT(norm(mesh.point(now[v]) - fine.point(VertexId(v))), 0.25 * diagonal);
+    }
+    EXPECT_EQ(std::count(used.begin(), used.end(), false), 0) << "each vertex has come from somewhere";
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, SweeperOn, testing::Values("icosphere", "noisy-sphere", "torus", "terrain", "plate"));
+
+TEST(Sweeper, FloatsStayFloats) {
+    PolygonSoup soup = make_sample("torus", 1000);
+    for (Vec3& p : soup.points) p = round_to_float(p);
+    Mesh mesh(std::move(soup));
+    RemeshOptions remesh = SimplifyOptions::default_remesh();
+    remesh.precision = Precision::float32;
+    make_delaunay(mesh, remesh);
+    Numbering numbering(mesh);
+    Sweeper sweeper(mesh, Tuning{}, Precision::float32, numbering);
+    sweeper.run(100, nullptr);
+    EXPECT_EQ(mesh.vertex_count(), 100u);
+    for (const Vec3& p : mesh.points()) EXPECT_EQ(round_to_float(p), p);
+    EXPECT_TRUE(certify(mesh).certified);
+}
+
+TEST(Sweeper, CancellingLeavesAValidMesh) {
+    Mesh mesh = delaunay_sample("torus", 2000);
+    const std::size_t before = mesh.vertex_count();
+    Numbering numbering(mesh);
+    Sweeper sweeper(mesh, Tuning{}, Precision::float64, numbering);
+    Context context;
+    context.cancel();
+    sweeper.run(10, &context);
+    EXPECT_EQ(mesh.vertex_count(), before);
+    EXPECT_EQ(validate(mesh), "");
+}
+
+}  // namespace
+}  // namespace delmesh
