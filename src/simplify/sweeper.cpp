@@ -35,17 +35,13 @@ const Mesh& reordered(Mesh& mesh, Numbering& numbering, double scale) {
     return mesh;
 }
 
-/// How far the two ends of the edge come to lie from the surface when it is merged to w; squared, local unit.
-double find_drift2(const Star& star, const Vec3& w) {
-    double of_u = std::numeric_limits<double>::infinity();
-    double of_v = of_u;
-    for (std::size_t i = 0; i < star.face_count(); ++i) {
-        const Vec3& a = star.ring[i].point;
-        const Vec3& b = star.ring[star.after(i)].point;
-        of_u = std::min(of_u, nearest_on_triangle(star.u_point, w, a, b).distance2);
-        of_v = std::min(of_v, nearest_on_triangle(star.v_point, w, a, b).distance2);
-    }
-    return std::max(of_u, of_v);
+/// The squared distance of p from the star with its centre at w.
+double find_distance2(const Star& star, const Vec3& w, const Vec3& p) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < star.face_count(); ++i)
+        least =
+            std::min(least, nearest_on_triangle(p, w, star.ring[i].point, star.ring[star.after(i)].point).distance2);
+    return least;
 }
 
 }  // namespace
@@ -64,6 +60,7 @@ Sweeper::Sweeper(Mesh& mesh, const Tuning& tuning, Precision precision, Numberin
       witness_(mesh.halfedge_count()),
       changed_(mesh.vertex_count()),
       merged_(mesh.vertex_count()),
+      far_(mesh.points().begin(), mesh.points().end()),
       parent_(numbering.vertex_names()) {
     for (std::size_t v = 0; v < parent_.size(); ++v) parent_[v] = VertexId(v);
 }
@@ -147,13 +144,26 @@ void Sweeper::visit(HalfedgeId h, float limit) {
     Vec3 w = star_.frame.to_mesh(place->point);
     if (precision_ == Precision::float32) w = round_to_float(w);
     if (!keeps_delaunay(mesh_, star_, w)) return wait(h, star_.u);
-    const double drift2 = find_drift2(star_, star_.frame.to_local(w));
-    if (drift2 > drift_limit2_) {
+    const Drift drift = find_drift(star_.frame.to_local(w));
+    if (drift.distance2 > drift_limit2_) {
         key_[h.index()] = static_cast<float>(place->cost);
         return;
     }
-    drift_sum_ += drift2;
+    drift_sum_ += drift.distance2;
+    far_[star_.u.index()] = drift.point;
     accept(h, w);
+}
+
+/// Of the ends of the edge, and of what was merged into them, the point that comes to lie farthest from the star.
+Sweeper::Drift Sweeper::find_drift(const Vec3& w) const {
+    Drift worst;
+    for (const VertexId v : {star_.u, star_.v}) {
+        for (const Vec3& p : {mesh_.point(v), far_[v.index()]}) {
+            const double distance2 = find_distance2(star_, w, star_.frame.to_local(p));
+            if (distance2 > worst.distance2) worst = {distance2, p};
+        }
+    }
+    return worst;
 }
 
 void Sweeper::accept(HalfedgeId h, const Vec3& w) {
@@ -194,6 +204,7 @@ void Sweeper::tidy() {
         if (!to.valid()) continue;
         changed_[to.index()] = changed_[v];
         merged_[to.index()] = merged_[v];
+        far_[to.index()] = far_[v];
     }
     numbering_.renumber(mesh_, map);
     weights_.renumber(map.vertex);
@@ -202,6 +213,7 @@ void Sweeper::tidy() {
     witness_.resize(mesh_.halfedge_count());
     changed_.resize(mesh_.vertex_count());
     merged_.resize(mesh_.vertex_count());
+    far_.resize(mesh_.vertex_count());
 }
 
 double Sweeper::worst_error() const {

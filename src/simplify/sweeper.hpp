@@ -36,12 +36,17 @@ public:
     [[nodiscard]] std::vector<VertexId> merged_into() const;
 
 private:
+    struct Drift {
+        double distance2 = -1;  ///< squared, local unit
+        Vec3 point;
+    };
     [[nodiscard]] float key_of(HalfedgeId h);
     [[nodiscard]] bool is_waiting(HalfedgeId h) const;
     [[nodiscard]] float choose_limit();
     void sweep(std::size_t vertices, float limit, const Context* context);
     void visit(HalfedgeId h, float limit);
     void wait(HalfedgeId h, VertexId witness);
+    [[nodiscard]] Drift find_drift(const Vec3& w) const;
     void accept(HalfedgeId h, const Vec3& w);
     void tidy();
 
@@ -65,6 +70,7 @@ private:
     std::vector<VertexId> witness_;       ///< per half-edge: the vertex that must change before it is tried again
     std::vector<std::uint32_t> changed_;  ///< per vertex: when the faces around it last changed
     std::vector<std::uint32_t> merged_;   ///< per vertex: the sweep in which something was last merged into it
+    std::vector<Vec3> far_;               ///< per vertex: of what was merged into it, the farthest from the surface
     std::vector<VertexId> parent_;        ///< by name, the name of what it was merged into, or its own
     std::vector<float> some_keys_;
 };
