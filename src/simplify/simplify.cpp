@@ -124,6 +124,18 @@ std::size_t refit_on_the_way(Decimator& decimator, std::size_t input_vertices, s
     return moves;
 }
 
+/// Where all edges are blocked, moving the vertices frees some.
+std::size_t run_on(Decimator& decimator, std::size_t target, bool refit, const Context* context) {
+    std::size_t moves = 0;
+    for (;;) {
+        const std::size_t before = decimator.vertices();
+        decimator.run(target, context);
+        const bool further = decimator.vertices() > target && decimator.vertices() < before;
+        if (!refit || !further || is_cancelled(context)) return moves;
+        moves += decimator.refit({.rounds = 1}, context);
+    }
+}
+
 }  // namespace
 
 std::span<const std::string_view> choices(Placement) {
@@ -193,7 +205,7 @@ SimplifyReport run(Mesh& mesh, const SimplifyOptions& options, ProgressiveMesh* 
     for (const std::size_t target : targets) {
         decimator.guard_for(target);
         if (refit) report.moves += refit_on_the_way(decimator, report.input_vertices, target, context);
-        decimator.run(target, context);
+        report.moves += run_on(decimator, target, refit, context);
         report.levels.push_back(describe_level(decimator, target, context));
         if (refit && decimator.counts().collapses > 0) report.moves += decimator.refit({}, context);
         report.stop = report.levels.back().stop;
