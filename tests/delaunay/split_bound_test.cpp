@@ -50,7 +50,7 @@ TEST_P(SplitBound, NoRunNeedsFewerSplits) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, SplitBound, testing::ValuesIn(test::families(60)), [](const auto& named) {
+INSTANTIATE_TEST_SUITE_P(Families, SplitBound, testing::ValuesIn(test::families(30)), [](const auto& named) {
     std::string name = named.param.name;
     for (char& c : name)
         if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
@@ -114,7 +114,7 @@ TEST(SplitBoundOfWheels, ASearchOfAllPlacesAgrees) {
     int above = 0;
     int missed = 0;
     int met = 0;
-    for (int round = 0; round < 600; ++round) {
+    for (int round = 0; round < 300; ++round) {
         const Small small(wheel(random, 3 + round % 4));
         if (small.bad.empty() || small.bad.size() > 2) continue;
         const bool solved = has_solution_with_one_each(small, small.bad.size() == 1 ? 400 : 50);
@@ -125,8 +125,8 @@ TEST(SplitBoundOfWheels, ASearchOfAllPlacesAgrees) {
             ++(solved ? met : missed);
         }
     }
-    EXPECT_GT(above, 20);
-    EXPECT_GT(met, 50);
+    EXPECT_GT(above, 10);
+    EXPECT_GT(met, 25);
     // Some need more though no core is found.
     EXPECT_LT(missed, above / 2);
 }
