@@ -20,6 +20,9 @@ namespace {
 /// Meshes so small are not worth sweeping.
 constexpr double least_far = 256;
 
+/// What is given to the user is worth more than what is passed on the way.
+constexpr RefitTuning at_level{.rounds = 6, .least_gain = 0.002};
+
 void check_options(const SimplifyOptions& options) {
     const auto refuse = [](const std::string& why) { throw Error(ErrorCode::bad_argument, why); };
     if (!(options.ratio >= 0 && options.ratio <= 1))
@@ -207,7 +210,7 @@ SimplifyReport run(Mesh& mesh, const SimplifyOptions& options, ProgressiveMesh* 
         if (refit) report.moves += refit_on_the_way(decimator, report.input_vertices, target, context);
         report.moves += run_on(decimator, target, refit, context);
         report.levels.push_back(describe_level(decimator, target, context));
-        if (refit && decimator.counts().collapses > 0) report.moves += decimator.refit({}, context);
+        if (refit && decimator.counts().collapses > 0) report.moves += decimator.refit(at_level, context);
         report.stop = report.levels.back().stop;
         const bool last = target == targets.back() || report.stop == SimplifyStop::cancelled;
         if (last) break;
