@@ -118,7 +118,7 @@ struct SimplifyReport {
     SimplifyStop stop = SimplifyStop::done;  ///< of the last level
 };
 
-/// Collapses edges until the levels asked for are reached, cheapest first. The mesh is Delaunay after every single
+/// Collapses edges until the levels asked for are reached, cheap ones first. The mesh is Delaunay after every single
 /// collapse, exactly, on the coordinates as they are stored; the topology never changes, components and boundary loops
 /// keep existing (a closed component has at least 4 vertices, an open one 3), and no face turns over. Where a target
 /// can not be reached, the report says how far it came and what blocks. Isolated vertices are dropped. Vertex and face
