@@ -4,6 +4,7 @@
 #include "delaunay/split_point.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -58,18 +59,35 @@ public:
           report_(report) {}
 
     TrialPointer run() {
-        TrialPointer best = by_shells();
+        // Needles make shells explode; then what is found without them is all that is needed.
+        const std::size_t few = 100'000 + 250 * start_.bad.size();
+        TrialPointer best = by_shells(few);
+        TrialPointer without;
+        if (best->report.stop == StopReason::max_vertices && best->report.splits >= few) {
+            without = better_of(std::move(best));
+            if (without->cancelled() || (without->done() && without->report.splits <= few)) return without;
+            best = by_shells(without->done() ? without->report.splits - 1 : unlimited);
+            if (!best->done() && !best->cancelled()) return without;
+        }
         const std::size_t splits_by_shells = best->done() ? best->report.splits : 0;
         if (!best->cancelled() && splits_by_shells != start_.bad.size()) best = better_of(std::move(best));
+        if (without && without->beats(*best)) best = std::move(without);
         best->report.splits_by_shells = splits_by_shells;
         return best;
     }
 
 private:
-    TrialPointer by_shells() {
+    static constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
+
+    /// Stops with `max_vertices` where more splits than these would be needed.
+    TrialPointer by_shells(std::size_t most_splits) {
+        RemeshOptions options = options_;
+        const std::size_t vertices = marked_.mesh().vertex_count();
+        if (most_splits != unlimited && (options.max_vertices == 0 || options.max_vertices > vertices + most_splits))
+            options.max_vertices = vertices + most_splits;
         auto trial = std::make_unique<Trial>(marked_, report_);
         trial->marked.reserve_splits(6 * start_.bad.size());
-        refine_and_clean(trial->marked, options_, context_, trial->report, start_.queue);
+        refine_and_clean(trial->marked, options, context_, trial->report, start_.queue);
         return trial;
     }
 

@@ -10,6 +10,8 @@
 #include "delaunay/refine.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <utility>
 
 namespace delmesh {
@@ -111,25 +113,50 @@ void flip_surface(Mesh& mesh, Way way, const RemeshOptions& options, const Conte
     }
 }
 
+struct Attempt {
+    Mesh mesh;
+    RemeshReport report;
+
+    [[nodiscard]] bool done() const { return report.stop == StopReason::done; }
+    [[nodiscard]] bool cancelled() const { return report.stop == StopReason::cancelled; }
+};
+
+/// `most_splits` over and above the limit in the options.
+Attempt attempt(const Mesh& mesh, Way way, std::size_t most_splits, const RemeshOptions& options,
+                const Context* context, const RemeshReport& so_far) {
+    RemeshOptions bounded = options;
+    const std::size_t most = mesh.vertex_count() + most_splits;
+    if (options.max_vertices == 0 || options.max_vertices > most) bounded.max_vertices = most;
+    Attempt result{mesh, so_far};
+    flip_surface(result.mesh, way, bounded, context, result.report);
+    return result;
+}
+
+/// The better of the two ways, the published one if neither ends.
+Attempt better_way(const Mesh& mesh, std::size_t most_splits, const RemeshOptions& options, const Context* context,
+                   const RemeshReport& so_far) {
+    Attempt published = attempt(mesh, Way::published, most_splits, options, context, so_far);
+    if (published.cancelled() || (published.done() && published.report.splits == 0)) return published;
+    const std::size_t enough = published.done() ? published.report.splits - 1 : most_splits;
+    Attempt patient = attempt(mesh, Way::patient, enough, options, context, so_far);
+    return patient.done() || patient.cancelled() ? std::move(patient) : std::move(published);
+}
+
 }  // namespace
 
 void flip_surface(Mesh& mesh, const RemeshOptions& options, const Context* context, RemeshReport& report) {
     if (options.placement == SplitPlacement::shells)
         return flip_surface(mesh, Way::published, options, context, report);
 
-    Mesh other_mesh = mesh;
-    RemeshReport other = report;
-    flip_surface(mesh, Way::published, options, context, report);
-    if (report.stop == StopReason::cancelled || (report.stop == StopReason::done && report.splits == 0)) return;
-    const std::size_t by_shells = report.stop == StopReason::done ? report.splits : 0;
-    flip_surface(other_mesh, Way::patient, options, context, other);
-    const bool fewer =
-        other.stop == StopReason::done && (report.stop != StopReason::done || other.splits < report.splits);
-    if (fewer || other.stop == StopReason::cancelled) {
-        mesh = std::move(other_mesh);
-        report = std::move(other);
-    }
-    report.splits_by_shells = by_shells;
+    // Needles make either way explode, but seldom both: millions of splits are only tried if nothing else is left.
+    const std::size_t few = 100'000 + 10 * mesh.vertex_count();
+    constexpr std::size_t many = std::numeric_limits<std::uint32_t>::max();
+    Attempt best = better_way(mesh, few, options, context, report);
+    const bool limited = options.max_vertices != 0 && options.max_vertices <= mesh.vertex_count() + few;
+    if (best.report.stop == StopReason::max_vertices && !limited)
+        best = better_way(mesh, many, options, context, report);
+    mesh = std::move(best.mesh);
+    report = std::move(best.report);
 }
 
 }  // namespace delmesh

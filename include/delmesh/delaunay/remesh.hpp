@@ -174,7 +174,7 @@ struct RemeshReport {
     std::size_t lower_bound = 0;
     /// The same, proved to be as high as this; where RemeshOptions::bound asks for it. docs/fewest.md has the proof.
     std::optional<std::size_t> lower_bound_strong;
-    /// Placement fewest: what placement shells would have split; 0 where that was not found out.
+    /// Mode preserve, placement fewest: what placement shells would have split; 0 where that was not found out.
     std::size_t splits_by_shells = 0;
     /// Mode preserve: the flat tolerance that was used, and an upper bound of how far any point of either surface is
     /// from the other one, beyond the rounding of split points; both in units of the coordinates.
