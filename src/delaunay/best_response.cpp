@@ -17,6 +17,8 @@ constexpr double margin_boundary = 2e-10;
 constexpr double flat = 1e-14;
 /// Points of an edge keep this distance, as a part of the edge.
 constexpr double least_room = 1e-7;
+/// The same where rounding has broken what was here.
+constexpr double wide_room = 1e-4;
 constexpr double centre_share = 0.4;
 constexpr double align_share = 0.5;
 constexpr int max_newton = 60;
@@ -232,7 +234,7 @@ std::span<const double> BestResponse::solve(std::uint32_t e, std::size_t first, 
     chosen_.clear();
     low_ = model_.part_start(e, first);
     high_ = model_.parts(e)[last].end;
-    room_ = std::min(least_room, 0.01 * (high_ - low_));
+    room_ = std::min(model_.is_distrusted(e) ? wide_room : least_room, 0.01 * (high_ - low_));
     model_.count_work(response_work);
     look(e);
     const double up = reach_up(low_);
@@ -417,7 +419,7 @@ double BestResponse::halve(std::uint32_t e, std::size_t first) {
 void BestResponse::aim_at(std::uint32_t e, std::size_t first) {
     low_ = model_.part_start(e, first);
     high_ = model_.parts(e)[first].end;
-    room_ = std::min(least_room, 0.01 * (high_ - low_));
+    room_ = std::min(model_.is_distrusted(e) ? wide_room : least_room, 0.01 * (high_ - low_));
     chosen_.clear();
     aligned_.clear();
     model_.count_work(response_work);

@@ -92,20 +92,21 @@ void SplitChooser::search(const Context* context) {
         in_blocks ? improve_blocks(context)
                   : search_.improve(static_cast<std::uint64_t>(std::max(full, left)), context);
     if (is_cancelled(context)) return;
-    search_.thin_rings(static_cast<std::uint64_t>(0.1 * full));
-    spread(full, in_blocks, context);
+    if (options_.effort > 0) {
+        search_.thin_rings(static_cast<std::uint64_t>(0.1 * full));
+        spread(full, in_blocks, context);
+    }
     if (baseline_.empty()) return;
     delmesh::take_better_regions(model_, search_.open(), placed_points(model_), baseline_);
 }
 
 /// For large angles. Does not need the work it may do.
 void SplitChooser::spread(double work, bool in_blocks, const Context* context) {
-    if (in_blocks && options_.effort > 0) {
+    if (in_blocks) {
         for (int i = 0; i < polish_rounds; ++i) improve_blocks_once(true, context);
         return;
     }
     search_.spread(static_cast<std::uint64_t>(spread_share * work));
-    if (options_.effort == 0) return;
     search_.polish(static_cast<std::uint64_t>(spread_share * work), context);
     search_.spread(static_cast<std::uint64_t>(spread_share * work));
 }

@@ -65,6 +65,7 @@ public:
     // --- judgement ---
     /// From now on the parts of this edge must keep a distance from ties.
     void distrust(std::uint32_t e) { states_[e].distrusted = true; }
+    [[nodiscard]] bool is_distrusted(std::uint32_t e) const { return states_[e].distrusted; }
     [[nodiscard]] bool is_bad(std::uint32_t e, const Part& part) const;
     /// The first part that is not Delaunay, or -1.
     [[nodiscard]] int first_bad(std::uint32_t e) const;

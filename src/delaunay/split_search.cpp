@@ -17,19 +17,17 @@ constexpr std::size_t largest_ring = 1024;
 constexpr std::size_t most_threads = 40;
 constexpr std::size_t slide_steps = 60;
 constexpr std::size_t most_slid = 20'000;
+constexpr std::size_t short_slide = 8;
+constexpr std::size_t most_slid_at_once = 400;
 constexpr double open_share = 0.3;
 constexpr double any_move_share = 0.4;
 constexpr std::size_t memory = 512;  ///< tries after which what moves have gained counts half
-constexpr std::size_t many_sides = 8;
-constexpr std::size_t very_many_sides = 64;
-constexpr std::size_t most_taken = 400;
 /// The search ends when it takes away less than 1/400 of the points in a stretch of work.
 constexpr std::uint64_t work_per_point = 10'000;
 constexpr std::uint64_t least_stretch = 2'000'000;
 /// Small meshes get more time for each point, as it hardly counts.
 constexpr std::uint64_t small_stretch = 25'000'000;
 constexpr std::uint64_t small_work_per_point = 60'000;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -71,9 +69,9 @@ bool SplitSearch::attempt(std::uint32_t e, std::size_t steps, bool clear_first) 
     begin_on(e);
     const std::size_t most = model_.point_count() + 10 + steps / 4;
     if (clear_first) {
-        take_edges(e, 2 + random_.below(random_.chance(0.5) ? 8 : 40));
-        steps += 6 * taken_.size();
-        remove_taken();
+        targets_.take_edges(e, 2 + random_.below(random_.chance(0.5) ? 8 : 40));
+        steps += 6 * targets_.size();
+        targets_.remove();
     }
     return settle(e, repair_.run(most, steps, random_.chance(0.8)));
 }
@@ -146,31 +144,52 @@ bool SplitSearch::borrow(std::uint32_t e, std::size_t size) {
         model_.cut(edge, 0, model_.point_count(edge), borrowed_);
     }
     const std::size_t most = model_.point_count() + 20 + edges_.size();
-    return settle(e, repair_.run(most, 50 + 4 * edges_.size(), random_.chance(0.5)));
+    return repair_.run(most, 50 + 4 * edges_.size(), random_.chance(0.5));
 }
 
 /// Adds points until all is Delaunay again.
 bool SplitSearch::weave(std::uint32_t e, std::size_t steps, bool clear_first) {
     begin_on(e);
     if (clear_first) {
-        take_edges(e, 2 + random_.below(40));
-        remove_taken();
+        targets_.take_edges(e, 2 + random_.below(40));
+        targets_.remove();
     }
-    return settle(e, repair_.weave(model_.point_count() + steps, steps));
+    return repair_.weave(model_.point_count() + steps, steps);
+}
+
+/// One of several ways, in a transaction that is left open. Returns the number of points then.
+std::size_t SplitSearch::close_by(int way, std::uint32_t e, std::size_t size) {
+    const bool closed = way < close_tries ? weave(e, weave_steps * size, way > 0) : borrow(e, size);
+    return closed ? model_.point_count() : std::numeric_limits<std::size_t>::max();
 }
 
 void SplitSearch::close_open(std::uint64_t work) {
     limit_work(work);
+    const std::uint64_t end = model_.work() + work;
     for (std::size_t size = 8; !open_.empty() && !repair_.is_exhausted(); size *= 2) {
         std::size_t largest = other_.empty() && size < most_weaved ? size : 0;
         close_each([&](std::uint32_t e) {
-            bool closed = false;
-            for (int i = 0; i < close_tries && !closed && !repair_.is_exhausted(); ++i)
-                closed = weave(e, weave_steps * size, i > 0);
-            for (int i = 0; i < close_tries && !closed && !other_.empty() && !repair_.is_exhausted(); ++i) {
-                closed = borrow(e, size);
-                largest = std::max(largest, edges_.size());
+            Random best = random_;
+            std::size_t fewest = std::numeric_limits<std::size_t>::max();
+            int way = -1;
+            for (int i = 0; i < 2 * close_tries && !repair_.is_exhausted(); ++i) {
+                if (i >= close_tries && other_.empty()) break;
+                const Random before = random_;
+                const std::size_t points = close_by(i, e, size);
+                model_.rollback();
+                model_.give_up(e, true);
+                if (i >= close_tries) largest = std::max(largest, edges_.size());
+                if (points >= fewest) continue;
+                fewest = points;
+                best = before;
+                way = i;
             }
+            if (way < 0) return false;
+            // Again, as it was then.
+            random_ = best;
+            repair_.set_work_limit(~std::uint64_t{0});
+            const bool closed = settle(e, close_by(way, e, size) == fewest);
+            repair_.set_work_limit(end);
             return closed;
         });
         if (largest < size) return;
@@ -221,13 +240,32 @@ void SplitSearch::thin_rings(std::uint64_t work) {
 
 /// Puts the points around an edge elsewhere.
 bool SplitSearch::shake(std::uint32_t e) {
+    for (const Part& part : model_.parts(e))
+        for (const std::uint32_t culprit : part.culprit)
+            if (culprit != SplitModel::none) model_.distrust(culprit);
     for (int i = 0; i < shake_tries && !repair_.is_exhausted(); ++i) {
-        take_edges(e, std::size_t{4} << (i / 4));
-        if (taken_.empty()) continue;
-        const std::size_t most = model_.point_count() + 2 + taken_.size() / 2;
+        targets_.take_edges(e, std::size_t{4} << (i / 4));
+        if (targets_.size() == 0) continue;
+        const std::size_t steps = (6 * targets_.size() + 20) << (i / 4);
+        const std::size_t most = model_.point_count() + 2 + steps / 10;
         model_.begin();
-        remove_taken();
-        if (repair_.run(most, 6 * taken_.size() + 20, random_.chance(0.5))) {
+        targets_.remove();
+        model_.add_suspect(e);
+        if (repair_.run(most, steps, random_.chance(0.5))) {
+            model_.commit();
+            return true;
+        }
+        model_.rollback();
+    }
+    return false;
+}
+
+/// Lays new threads around the ring of an edge.
+bool SplitSearch::relay(std::uint32_t e) {
+    if (!ring_.gather(e, largest_ring)) return false;
+    for (std::size_t threads = 2; threads <= most_threads && !repair_.is_exhausted(); threads += 1 + threads / 3) {
+        model_.begin();
+        if (solve_ring(threads)) {
             model_.commit();
             return true;
         }
@@ -239,15 +277,18 @@ bool SplitSearch::shake(std::uint32_t e) {
 bool SplitSearch::mend(const std::vector<std::uint32_t>& edges, std::uint64_t work) {
     limit_work(work);
     bool changed = false;
+    std::vector<bool> again;
     for (const std::uint32_t e : edges) {
         model_.prepare(e);
+        again.push_back(model_.is_distrusted(e));
         model_.distrust(e);
     }
-    for (const std::uint32_t e : edges) {
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+        const std::uint32_t e = edges[k];
         if (model_.is_given_up(e)) continue;
         if (model_.first_bad(e) < 0) {
             // The model can not tell what is wrong.
-            changed = shake(e) || changed;
+            changed = (again[k] && relay(e)) || shake(e) || changed;
             continue;
         }
         bool closed = false;
@@ -268,7 +309,7 @@ bool SplitSearch::is_spare(std::uint32_t e) const {
 void SplitSearch::find_spare_edges() {
     spare_.clear();
     for (std::uint32_t e = 0; e < model_.edge_count(); ++e)
-        if (is_spare(e) && model_.is_movable(e)) spare_.push_back(e);
+        if (is_spare(e) && model_.is_movable(e)) spare_.insert(spare_.end(), 1 + model_.point_count(e) / 4, e);
 }
 
 void SplitSearch::improve(std::uint64_t work, const Context* context) {
@@ -335,9 +376,10 @@ void SplitSearch::try_once(std::uint32_t edge) {
     take(move, edge);
     const std::size_t before = model_.point_count();
     const std::uint64_t work_before = model_.work();
-    const std::size_t steps = 6 * taken_.size() + 20;
+    const std::size_t steps = 6 * targets_.size() + 20;
     model_.begin();
-    remove_taken();
+    targets_.remove();
+    if (move.kind == Kind::slide) slide_.run(short_slide, most_slid_at_once);
     if (random_.chance(0.5))
         for (std::size_t i = model_.suspect_count(); i > 1; --i) model_.swap_suspects(i - 1, random_.below(i));
     if (move.weaves ? repair_.weave(before, 2 * steps) : repair_.run(before, steps, random_.chance(0.5))) {
@@ -350,143 +392,18 @@ void SplitSearch::try_once(std::uint32_t edge) {
     if (++tries_ % memory == 0) forget_gains();
 }
 
-// --- what to take away ---
-
 void SplitSearch::take(const Move& move, std::uint32_t edge) {
     const std::size_t n = model_.point_count(edge);
-    const Target seed{edge, model_.parts(edge)[n == 1 ? 0 : random_.below(n)].end};
+    const SplitTargets::Point seed{edge, model_.parts(edge)[n == 1 ? 0 : random_.below(n)].end};
     const std::size_t size = move.least + random_.below(move.most - move.least + 1);
     switch (move.kind) {
         case Kind::cluster:
-            return take_cluster(seed, size);
+            return targets_.take_cluster(seed, size);
         case Kind::edges:
-            return take_edges(edge, size);
+            return targets_.take_edges(edge, size);
         case Kind::thread:
-            return take_thread(seed, size);
-    }
-}
-
-bool SplitSearch::is_taken(const Target& t) const {
-    return std::any_of(taken_.begin(), taken_.end(),
-                       [&](const Target& other) { return other.edge == t.edge && other.at == t.at; });
-}
-
-/// The nearest points on the other sides of a facet; in a facet with many sides, the nearest one of all.
-void SplitSearch::add_nearest(const Side& from, Point2 at) {
-    const Facet& facet = model_.layout().facet(from.facet);
-    Target nearest;
-    double least = infinity;
-    for (std::uint32_t s = facet.first_side; s < facet.first_side + facet.side_count; ++s) {
-        const Side& side = model_.layout().side(s);
-        const std::size_t n = model_.point_count(side.edge);
-        if (n == 0 || side.edge == from.edge || !model_.is_movable(side.edge)) continue;
-        const auto parts = model_.parts(side.edge);
-        std::size_t i = 0;
-        if (n > 1) {
-            const double t = dot(at - side.start, side.x_row);
-            i = std::min(model_.part_at(side.edge, t), n - 1);
-            if (i > 0 && t - parts[i - 1].end < parts[i].end - t) --i;
-        }
-        const Target target{side.edge, parts[i].end};
-        if (facet.side_count <= many_sides) {
-            nearby_.push_back(target);
-            continue;
-        }
-        const Point2 d = side.at(target.at) - at;
-        if (dot(d, d) >= least) continue;
-        least = dot(d, d);
-        nearest = target;
-    }
-    if (least < infinity) nearby_.push_back(nearest);
-}
-
-void SplitSearch::add_neighbours(const Target& of) {
-    const std::size_t i = model_.part_at(of.edge, of.at);
-    const auto parts = model_.parts(of.edge);
-    if (i > 0) nearby_.push_back({of.edge, parts[i - 1].end});
-    if (i + 2 < parts.size()) nearby_.push_back({of.edge, parts[i + 1].end});
-    for (const std::uint32_t s : model_.layout().edge(of.edge).side)
-        if (s != SplitModel::none) add_nearest(model_.layout().side(s), model_.layout().side(s).at(of.at));
-}
-
-/// Neighbouring points, in random order.
-void SplitSearch::take_cluster(Target seed, std::size_t size) {
-    nearby_.clear();
-    taken_.assign(1, seed);
-    if (size > 1) add_neighbours(seed);
-    while (taken_.size() < size && !nearby_.empty()) {
-        const std::size_t i = random_.below(nearby_.size());
-        const Target next = nearby_[i];
-        nearby_[i] = nearby_.back();
-        nearby_.pop_back();
-        if (is_taken(next)) continue;
-        taken_.push_back(next);
-        add_neighbours(next);
-    }
-}
-
-/// All points of neighbouring edges.
-void SplitSearch::take_edges(std::uint32_t edge, std::size_t size) {
-    const FacetLayout& layout = model_.layout();
-    taken_.clear();
-    edges_.assign(1, edge);
-    for (std::size_t done = 0; done < edges_.size() && done < size && taken_.size() < most_taken; ++done) {
-        if (done > 0) std::swap(edges_[done], edges_[done + random_.below(edges_.size() - done)]);
-        const std::uint32_t e = edges_[done];
-        for (const Part& part : model_.parts(e).first(model_.point_count(e))) taken_.push_back({e, part.end});
-        for (const std::uint32_t s : layout.edge(e).side) {
-            if (s == SplitModel::none) continue;
-            const Facet& facet = layout.facet(layout.side(s).facet);
-            if (facet.side_count > very_many_sides) continue;
-            for (std::uint32_t i = facet.first_side; i < facet.first_side + facet.side_count; ++i) {
-                const std::uint32_t other = layout.side(i).edge;
-                if (model_.point_count(other) == 0 || !model_.is_movable(other)) continue;
-                if (std::find(edges_.begin(), edges_.end(), other) == edges_.end()) edges_.push_back(other);
-            }
-        }
-    }
-}
-
-/// Moves `at` across the facet at side k of its edge to the nearest point there, and k to the far side of the edge that
-/// it comes to.
-bool SplitSearch::move_across(int& k, Target& at) {
-    const FacetLayout& layout = model_.layout();
-    const std::uint32_t s = layout.edge(at.edge).side[k];
-    if (s == SplitModel::none) return false;
-    const Side& from = layout.side(s);
-    const Point2 p = from.at(at.at);
-    nearby_.clear();
-    add_nearest(from, p);
-    double least = infinity;
-    for (const Target& t : nearby_) {
-        if (is_taken(t)) continue;
-        const auto& sides = layout.edge(t.edge).side;
-        const int near = sides[0] != SplitModel::none && layout.side(sides[0]).facet == from.facet ? 0 : 1;
-        const Point2 d = layout.side(sides[near]).at(t.at) - p;
-        if (dot(d, d) >= least) continue;
-        least = dot(d, d);
-        at = t;
-        k = 1 - near;
-    }
-    return least < infinity;
-}
-
-/// A chain of points, each the nearest to the one before across a facet: in strips points vanish only all together.
-void SplitSearch::take_thread(Target seed, std::size_t size) {
-    taken_.assign(1, seed);
-    for (const int direction : {0, 1}) {
-        Target at = seed;
-        int k = direction;
-        while (taken_.size() < size && move_across(k, at)) taken_.push_back(at);
-    }
-}
-
-void SplitSearch::remove_taken() {
-    for (const Target& t : taken_) {
-        if (!model_.is_movable(t.edge)) continue;
-        model_.prepare(t.edge);
-        const std::size_t i = model_.part_at(t.edge, t.at);
-        if (i < model_.point_count(t.edge) && model_.parts(t.edge)[i].end == t.at) model_.cut(t.edge, i, i + 1, {});
+        case Kind::slide:
+            return targets_.take_thread(seed, size);
     }
 }
 

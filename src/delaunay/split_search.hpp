@@ -7,6 +7,7 @@
 #include "delaunay/split_repair.hpp"
 #include "delaunay/split_ring.hpp"
 #include "delaunay/split_slide.hpp"
+#include "delaunay/split_targets.hpp"
 #include "delmesh/base/context.hpp"
 
 #include <array>
@@ -22,6 +23,7 @@ public:
         : model_(model),
           random_(seed),
           repair_(model, random_),
+          targets_(model, random_),
           slide_(model),
           ring_(model) {}
 
@@ -69,11 +71,8 @@ public:
     void polish(std::uint64_t work, const Context* context = nullptr);
 
 private:
-    struct Target {
-        std::uint32_t edge = 0;
-        double at = 0;
-    };
-    enum class Kind { cluster, edges, thread };
+    using Target = SplitTargets::Point;
+    enum class Kind { cluster, edges, thread, slide };
     /// A way to choose what to take away, and what came of it.
     struct Move {
         Kind kind = Kind::cluster;
@@ -92,8 +91,10 @@ private:
     bool settle(std::uint32_t e, bool closed);
     bool weave(std::uint32_t e, std::size_t steps, bool clear_first);
     bool borrow(std::uint32_t e, std::size_t size);
+    std::size_t close_by(int way, std::uint32_t e, std::size_t size);
     bool solve_ring(std::size_t threads);
     bool shake(std::uint32_t e);
+    bool relay(std::uint32_t e);
     void gather_ball(std::uint32_t e, std::size_t size);
     [[nodiscard]] std::span<const PlacedPoint> others_on(std::uint32_t e) const;
     void attempt_any_open();
@@ -104,13 +105,6 @@ private:
     [[nodiscard]] bool is_spare(std::uint32_t e) const;
 
     void take(const Move& move, std::uint32_t edge);
-    void take_cluster(Target seed, std::size_t size);
-    void take_edges(std::uint32_t edge, std::size_t size);
-    void take_thread(Target seed, std::size_t size);
-    void add_neighbours(const Target& of);
-    void add_nearest(const Side& from, Point2 at);
-    bool move_across(int& k, Target& at);
-    void remove_taken();
     [[nodiscard]] double smallest_angle(std::uint32_t e, Target& near);
     [[nodiscard]] double penalty_before(std::uint32_t e) const;
     void polish_edge(std::uint32_t e);
@@ -118,15 +112,15 @@ private:
     void find_small_angles(std::vector<std::uint32_t>& edges);
     [[nodiscard]] double point_at(const Side& side, std::uint32_t on, Point2 place) const;
     [[nodiscard]] Target point_near(std::uint32_t e, std::size_t i, std::size_t k, Point2 apex);
-    [[nodiscard]] bool is_taken(const Target& t) const;
 
     SplitModel& model_;
     bool is_quiet_ = false;
     Random random_;
     SplitRepair repair_;
+    SplitTargets targets_;
     SplitSlide slide_;
     SplitRing ring_;
-    std::array<Move, 10> moves_{{
+    std::array<Move, 12> moves_{{
         {Kind::cluster, 1, 1},
         {Kind::cluster, 2, 2},
         {Kind::cluster, 3, 7},
@@ -137,13 +131,13 @@ private:
         {Kind::edges, 4, 40, true},
         {Kind::thread, 2, 13},
         {Kind::thread, 14, 100},
+        {Kind::slide, 1, 4},
+        {Kind::slide, 5, 50},
     }};
     std::size_t tries_ = 0;
     std::span<const PlacedPoint> other_;
     std::vector<std::uint32_t> open_;
     std::vector<std::uint32_t> spare_;
-    std::vector<Target> taken_;
-    std::vector<Target> nearby_;
     std::vector<std::uint32_t> edges_;
     std::vector<double> borrowed_;
     std::vector<std::uint32_t> reached_;  ///< per edge: the last ball that it was reached by

@@ -8,6 +8,8 @@ namespace {
 
 /// How far beyond a tie a part is brought, in terms of what it has where the points around it lie on parallel lines.
 constexpr double aim = 0.1;
+/// Points of an edge keep this distance, as a part of the edge.
+constexpr double least_room = 1e-7;
 /// A point comes no nearer to its neighbours than by this part of the distance in one step.
 constexpr double most_step = 0.4;
 constexpr double damping = 1e-3;
@@ -43,7 +45,8 @@ void SplitSlide::add_entry(Row& row, std::uint32_t edge, std::size_t point, doub
         double before = 0;
         const auto parts = model_.parts(edge);
         for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
-            room_.push_back(std::min(parts[i].end - before, parts[i + 1].end - parts[i].end));
+            room_.push_back(
+                std::max(0.0, std::min(parts[i].end - before, parts[i + 1].end - parts[i].end) - least_room));
             before = parts[i].end;
         }
     }
@@ -125,7 +128,8 @@ void SplitSlide::solve() {
     direction_ = gradient_;
     double norm2 = 0;
     for (const double g : gradient_) norm2 += g * g;
-    const double enough = inner_precision * inner_precision * norm2;
+    // Where the wishes of the parts balance, the gradient is rounding and no direction.
+    const double enough = std::max(inner_precision * inner_precision * norm2, 1e-16);
     for (int k = 0; k < most_inner && norm2 > enough; ++k) {
         model_.count_work(rows_.size() / 2 + n / 4);
         double curvature = 0;

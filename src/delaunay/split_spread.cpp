@@ -105,11 +105,11 @@ double SplitSearch::penalty_before(std::uint32_t e) const {
 
 /// Places the points around one anew; keeps that if the small angles nearby have become larger.
 void SplitSearch::try_to_polish(const Target& near) {
-    take_cluster(near, 1 + random_.below(random_.chance(0.5) ? 2 : most_points));
+    targets_.take_cluster(near, 1 + random_.below(random_.chance(0.5) ? 2 : most_points));
     const std::size_t most = model_.point_count();
     model_.begin();
-    remove_taken();
-    if (!repair_.run(most, 6 * taken_.size() + 20, random_.chance(0.5))) return model_.rollback();
+    targets_.remove();
+    if (!repair_.run(most, 6 * targets_.size() + 20, random_.chance(0.5))) return model_.rollback();
     double gain = 0;
     new_angles_.clear();
     model_.visit_changed([&](std::uint32_t changed) {
