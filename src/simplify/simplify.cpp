@@ -158,9 +158,29 @@ std::string_view name(Obstacle obstacle) {
 
 namespace {
 
+/// Points by shells are as good as any where they are few, since most go again; where they are many they stand in each
+/// other's way, and a search for fewer pays (unless there are so many that it would take longer than all the rest).
+RemeshReport remesh(Mesh& mesh, const RemeshOptions& options, const Context* context) {
+    if (options.placement == SplitPlacement::shells) return make_delaunay(mesh, options, context);
+    constexpr std::size_t searched_for = 20'000;
+    const std::size_t vertices = mesh.vertex_count();
+    RemeshOptions shells = options;
+    shells.placement = SplitPlacement::shells;
+    const std::size_t most = vertices + std::max(searched_for, vertices);
+    if (options.max_vertices == 0 || options.max_vertices > most) shells.max_vertices = most;
+    Mesh by_shells = mesh;
+    RemeshReport report = make_delaunay(by_shells, shells, context);
+    const bool is_enough = report.splits <= vertices / 10 || report.splits > searched_for;
+    if (report.stop == StopReason::cancelled || (report.stop == StopReason::done && is_enough)) {
+        mesh = std::move(by_shells);
+        return report;
+    }
+    return make_delaunay(mesh, options, context);
+}
+
 bool remesh_first(Mesh& mesh, const SimplifyOptions& options, SimplifyReport& report, const Context* context) {
     if (certify(mesh, context).certified) return true;
-    report.remesh = make_delaunay(mesh, options.remesh, context);
+    report.remesh = remesh(mesh, options.remesh, context);
     if (report.remesh->stop == StopReason::done) return true;
     report.stop = is_cancelled(context) ? SimplifyStop::cancelled : SimplifyStop::not_delaunay;
     return false;
