@@ -1,17 +1,17 @@
 // Runs a fuzz target over its seeds, over changed seeds, and over the files of a folder of findings.
-//     replay_NAME [FOLDER]          replay_NAME --write-seeds FOLDER
+//     replay_NAME COUNT [FOLDER]    COUNT: of changed seeds
+//     replay_NAME --write-seeds FOLDER
 
 #include "target.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string_view>
 
 namespace {
-
-constexpr int changed_seeds = 1500;
 
 void run(const std::string& input) {
     LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(input.data()), input.size());
@@ -67,10 +67,15 @@ int write_seeds(const std::filesystem::path& folder) {
 
 int main(int argc, char** argv) {
     if (argc == 3 && std::string_view(argv[1]) == "--write-seeds") return write_seeds(argv[2]);
+    const int changed_seeds = argc > 1 ? std::atoi(argv[1]) : 0;
+    if (changed_seeds <= 0) {
+        std::fprintf(stderr, "usage: %s COUNT [FOLDER]\n", argv[0]);
+        return 2;
+    }
     const std::vector<std::string> seeds = delmesh::fuzz::seeds();
     std::ranges::for_each(seeds, run);
     for (int i = 0; i < changed_seeds; ++i) run(changed(seeds[static_cast<std::size_t>(i) % seeds.size()]));
-    for (const auto& file : argc == 2 ? files_in(argv[1]) : std::vector<std::filesystem::path>()) {
+    for (const auto& file : argc == 3 ? files_in(argv[2]) : std::vector<std::filesystem::path>()) {
         std::printf("%s\n", file.c_str());
         std::fflush(stdout);
         std::ifstream bytes(file, std::ios::binary);
