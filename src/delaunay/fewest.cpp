@@ -93,9 +93,13 @@ private:
 
     TrialPointer better_of(TrialPointer shells) {
         SplitChooser chooser(marked_, start_.bad, {static_cast<int>(options_.effort), options_.seed});
-        if (shells->done()) chooser.set_baseline(shells->marked.splits());
-        chooser.search(context_);
-        TrialPointer trial = by_plan(chooser);
+        TrialPointer trial = by_search(chooser, *shells);
+        if (options_.effort > 0 && !trial->cancelled() && misses_its_plan(*trial, chooser)) {
+            // Rounding broke what was found. It may leave alone what takes less searching.
+            SplitChooser simple(marked_, start_.bad, {0, options_.seed});
+            TrialPointer other = by_search(simple, *shells);
+            if (other->cancelled() || other->beats(*trial)) trial = std::move(other);
+        }
         if (!shells->done() || trial->cancelled()) return trial;
         // By now it is known what the points cost in truth: regions where the shells need fewer take these.
         TrialPointer second;
@@ -103,6 +107,17 @@ private:
         if (second && second->cancelled()) return second;
         if (second && second->beats(*trial)) trial = std::move(second);
         return trial->beats(*shells) ? std::move(trial) : std::move(shells);
+    }
+
+    TrialPointer by_search(SplitChooser& chooser, const Trial& shells) {
+        if (shells.done()) chooser.set_baseline(shells.marked.splits());
+        chooser.search(context_);
+        return by_plan(chooser);
+    }
+
+    [[nodiscard]] static bool misses_its_plan(const Trial& trial, const SplitChooser& chooser) {
+        const std::size_t planned = chooser.splits().size();
+        return !trial.done() || trial.report.splits > planned + planned / 10 + 10;
     }
 
     TrialPointer by_plan(SplitChooser& chooser) {
