@@ -13,6 +13,7 @@ constexpr double work_per_edge = 30'000;
 constexpr double least_work = 200e6;
 /// Reached at 67,000 edges: nobody wants to wait for minutes unasked. A higher effort is asked.
 constexpr double most_work = 2e9;
+constexpr double most_block_work = 2e9;  ///< in blocks, each round half of it
 constexpr int default_effort = 3;
 /// From here on the search cuts the mesh into blocks.
 constexpr std::size_t many_edges = 4000;
@@ -111,11 +112,11 @@ void SplitChooser::spread(double work, bool in_blocks, const Context* context) {
     search_.spread(static_cast<std::uint64_t>(spread_share * work));
 }
 
-/// The work grows with the mesh here without end, as all threads share it.
+/// More work than without blocks, as all threads share it.
 void SplitChooser::improve_blocks_once(bool polish, const Context* context) {
     if (model_.point_count() == 0 || is_cancelled(context)) return;
-    const double all = std::ldexp(std::max(work_per_edge * static_cast<double>(bad_.size()), least_work),
-                                  options_.effort - default_effort);
+    const double wanted = std::clamp(work_per_edge * static_cast<double>(bad_.size()), least_work, most_block_work);
+    const double all = std::ldexp(wanted, options_.effort - default_effort);
     report_progress(context, "place", std::min(shares_done_ / most_shares, 1.0));
     BlockSearchOptions options;
     options.seed = options_.seed;

@@ -60,7 +60,7 @@ public:
 
     TrialPointer run() {
         // Needles make shells explode; then what is found without them is all that is needed.
-        const std::size_t few = 100'000 + 250 * start_.bad.size();
+        const std::size_t few = 100'000 + 20 * start_.bad.size();
         TrialPointer best = by_shells(few);
         TrialPointer without;
         if (best->report.stop == StopReason::max_vertices && best->report.splits >= few) {
