@@ -1,5 +1,7 @@
 #include "delaunay/cluster_cores.hpp"
 
+#include "base/sort_unique.hpp"
+
 #include <algorithm>
 
 namespace delmesh {
@@ -13,11 +15,6 @@ constexpr std::size_t most_boxes = 1000;
 constexpr std::size_t most_work = 100'000;
 constexpr std::size_t most_scenes = 20000;
 constexpr double least_width = 1e-7;
-
-void sort_unique(std::vector<std::uint32_t>& ids) {
-    std::sort(ids.begin(), ids.end());
-    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-}
 
 [[nodiscard]] bool contains(const std::vector<std::uint32_t>& ids, std::uint32_t id) {
     return std::find(ids.begin(), ids.end(), id) != ids.end();

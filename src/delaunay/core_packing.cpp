@@ -17,7 +17,7 @@ CorePacking::CorePacking(std::vector<EdgeNeed> needs)
       locked_(needs_.size(), false) {
     IdMap index;
     for (EdgeNeed& need : needs_) {
-        for (Blocker& blocker : need.blockers) {
+        for (BlockedStretch& blocker : need.blockers) {
             std::uint32_t i = index.find(blocker.edge);
             if (i == none) {
                 i = static_cast<std::uint32_t>(owner_.size());
@@ -27,8 +27,9 @@ CorePacking::CorePacking(std::vector<EdgeNeed> needs)
             }
             blocker.edge = i;
         }
-        std::sort(need.blockers.begin(), need.blockers.end(),
-                  [](const Blocker& a, const Blocker& b) { return a.from != b.from ? a.from < b.from : a.to > b.to; });
+        std::sort(need.blockers.begin(), need.blockers.end(), [](const BlockedStretch& a, const BlockedStretch& b) {
+            return a.from != b.from ? a.from < b.from : a.to > b.to;
+        });
     }
 }
 
@@ -50,7 +51,7 @@ std::size_t CorePacking::run() {
 
 /// Fills `found_` with as few blockers as can cover the stretch; false if they can not, or not by so few.
 bool CorePacking::cover(std::uint32_t core, const Stretch& stretch, Blocked blocked, std::size_t limit) {
-    const std::vector<Blocker>& blockers = needs_[core].blockers;
+    const std::vector<BlockedStretch>& blockers = needs_[core].blockers;
     work_ += blockers.size();
     found_.clear();
     double at = stretch.from;
@@ -127,7 +128,7 @@ bool CorePacking::take_from_others(std::uint32_t core, int depth) {
     for (const Stretch& stretch : needs_[core].stretches) {
         bool alone = false;
         for (std::size_t i = 0; i < needs_[core].blockers.size(); ++i) {
-            const Blocker& blocker = needs_[core].blockers[i];
+            const BlockedStretch& blocker = needs_[core].blockers[i];
             if (blocker.from > stretch.from || blocker.to < stretch.to) continue;
             alone = true;
             const std::uint32_t owner = owner_[blocker.edge];

@@ -157,7 +157,7 @@ void EdgeStudy::find_blockers(EdgeNeed& need, const std::vector<bool>& is_open) 
     const Mesh& mesh = view_.mesh();
     for (int k = 0; k < sides_; ++k) {
         for (const HalfedgeId side : views_[k].sides) {
-            Blocker blocker;
+            BlockedStretch blocker;
             blocker.edge = mesh.edge(side).value();
             if (!is_open[blocker.edge] && find_blocked(side, blocker)) need.blockers.push_back(blocker);
         }
@@ -166,7 +166,7 @@ void EdgeStudy::find_blockers(EdgeNeed& need, const std::vector<bool>& is_open) 
 
 /// The stretch of the edge in which a point makes the given side bad. The points that do so lie in a circle, so where
 /// two do, all between them do.
-bool EdgeStudy::find_blocked(HalfedgeId side, Blocker& blocker) const {
+bool EdgeStudy::find_blocked(HalfedgeId side, BlockedStretch& blocker) const {
     const Mesh& mesh = view_.mesh();
     BoundView::Frame other;
     if (!view_.make_frame(mesh.origin(side), mesh.target(side), other)) return false;

@@ -2,6 +2,7 @@
 // How many points an edge needs if there are no others, where they would have to be, and what they would make bad.
 
 #include "delaunay/bound_view.hpp"
+#include "delaunay/stretch.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -9,23 +10,17 @@
 namespace delmesh {
 
 /// Points of the stretch make another edge bad that is not split; proved.
-struct Blocker {
+struct BlockedStretch {
     std::uint32_t edge = 0;
     double from = 0;
     double to = 0;
 };
 
-/// A stretch of an edge; holds more than what it stands for, never less.
-struct Stretch {
-    double from = 0;
-    double to = 1;
-};
-
 struct EdgeNeed {
     std::uint32_t edge = 0;
     std::size_t points = 1;          ///< so many at least
-    std::vector<Stretch> stretches;  ///< if it has no more: where the first, the second, ... of them must be
-    std::vector<Blocker> blockers;   ///< by edges for which `may_block` holds
+    std::vector<Stretch> stretches;  ///< if it has no more: where the first, the second, ... of them must be, or larger
+    std::vector<BlockedStretch> blockers;  ///< by edges for which `may_block` holds
 };
 
 /// Studies one edge after the other; keeps its buffers.
@@ -42,7 +37,7 @@ private:
     [[nodiscard]] double proved_reach(double from, double length, bool up, const std::array<int, 2>& seen) const;
     void find_stretches(EdgeNeed& need) const;
     void find_blockers(EdgeNeed& need, const std::vector<bool>& is_open) const;
-    [[nodiscard]] bool find_blocked(HalfedgeId side, Blocker& blocker) const;
+    [[nodiscard]] bool find_blocked(HalfedgeId side, BlockedStretch& blocker) const;
 
     BoundView& view_;
     BoundView::Frame frame_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include "base/sort_unique.hpp"
 
 namespace delmesh {
 namespace {
@@ -39,8 +40,7 @@ EdgeScene::EdgeScene(BoundView& view, EdgeId e) : edge_(e.value()) {
     slack_ = frame.slack;
     look(view, frame, h);
     if (!mesh.is_boundary(h)) look(view, frame, mesh.twin(h));
-    std::sort(neighbours_.begin(), neighbours_.end());
-    neighbours_.erase(std::unique(neighbours_.begin(), neighbours_.end()), neighbours_.end());
+    sort_unique(neighbours_);
 }
 
 void EdgeScene::look(BoundView& view, const BoundView::Frame& frame, HalfedgeId h) {

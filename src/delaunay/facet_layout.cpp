@@ -1,5 +1,6 @@
 #include "delaunay/facet_layout.hpp"
 
+#include "base/sort_unique.hpp"
 #include "delaunay/non_delaunay.hpp"
 
 #include <algorithm>
@@ -155,8 +156,7 @@ void FacetLayout::lay_corners() {
         largest = area;
         plane = plane_of(corners);
     }
-    std::sort(local_corners_.begin(), local_corners_.end());
-    local_corners_.erase(std::unique(local_corners_.begin(), local_corners_.end()), local_corners_.end());
+    sort_unique(local_corners_);
     for (auto& [v, index] : local_corners_) {
         index = static_cast<std::uint32_t>(corners_.size());
         corners_.push_back(plane(scaled(v)));

@@ -89,6 +89,11 @@ public:
     [[nodiscard]] std::size_t edge_count() const { return edges_.size(); }
     [[nodiscard]] const Edge& edge(std::uint32_t e) const { return edges_[e]; }
     [[nodiscard]] const Side& side(std::uint32_t s) const { return sides_[s]; }
+    /// Which of the two sides of edge e lies in a facet, 0 or 1; 0 if both do. Requires that one does.
+    [[nodiscard]] std::size_t side_within(std::uint32_t e, std::uint32_t facet) const {
+        const std::uint32_t first = edges_[e].side[0];
+        return first != none && sides_[first].facet == facet ? 0 : 1;
+    }
     [[nodiscard]] const Facet& facet(std::uint32_t f) const { return facets_[f]; }
     [[nodiscard]] std::size_t triangle_count() const { return triangles_.size(); }
     [[nodiscard]] const FacetTriangle& triangle(std::uint32_t t) const { return triangles_[t]; }

@@ -1,7 +1,9 @@
 #include "delaunay/fewest.hpp"
 
+#include "base/sort_unique.hpp"
 #include "delaunay/choose_splits.hpp"
 #include "delaunay/split_point.hpp"
+#include "delaunay/vertex_limit.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -43,8 +45,7 @@ std::vector<std::array<VertexId, 2>> input_edges(const Trial& trial, const std::
         const EdgePart part = part_of_input_edge(trial.marked, h);
         edges.push_back({part.a, part.b});
     }
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    sort_unique(edges);
     return edges;
 }
 
@@ -81,10 +82,9 @@ private:
 
     /// Stops with `max_vertices` where more splits than these would be needed.
     TrialPointer by_shells(std::size_t most_splits) {
-        RemeshOptions options = options_;
         const std::size_t vertices = marked_.mesh().vertex_count();
-        if (most_splits != unlimited && (options.max_vertices == 0 || options.max_vertices > vertices + most_splits))
-            options.max_vertices = vertices + most_splits;
+        const RemeshOptions options =
+            most_splits == unlimited ? options_ : with_at_most(options_, vertices + most_splits);
         auto trial = std::make_unique<Trial>(marked_, report_);
         trial->marked.reserve_splits(6 * start_.bad.size());
         refine_and_clean(trial->marked, options, context_, trial->report, start_.queue);

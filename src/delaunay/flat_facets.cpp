@@ -1,6 +1,7 @@
 #include "delaunay/flat_facets.hpp"
 
 #include "base/parallel.hpp"
+#include "base/sort_unique.hpp"
 #include "delaunay/classify.hpp"
 #include "delaunay/flat_rule.hpp"
 #include "exact/double_double.hpp"
@@ -121,8 +122,7 @@ private:
         std::vector<FaceId> seeds;
         for (std::size_t i = 0; i < near_.size(); ++i)
             if (near_[i] != 0) seeds.push_back(facets_[i / 3]);
-        std::sort(seeds.begin(), seeds.end());
-        seeds.erase(std::unique(seeds.begin(), seeds.end()), seeds.end());
+        sort_unique(seeds);
         if (seeds.empty()) return seeds;
         std::vector<double> area(mesh_.face_count(), 0);
         for (std::size_t f = 0; f < mesh_.face_count(); ++f) area[facets_[f].index()] += norm(doubled_area(FaceId(f)));

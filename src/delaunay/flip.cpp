@@ -1,5 +1,6 @@
 #include "delaunay/flip.hpp"
 
+#include "base/sort_unique.hpp"
 #include "delaunay/flip_queue.hpp"
 #include "delaunay/non_delaunay.hpp"
 #include "delaunay/splitter.hpp"
@@ -134,8 +135,7 @@ private:
         for (;;) {
             std::vector<HalfedgeId> left;
             for (HalfedgeId& h : stuck_) h = Mesh::halfedge(mesh_.edge(h));
-            std::sort(stuck_.begin(), stuck_.end());
-            stuck_.erase(std::unique(stuck_.begin(), stuck_.end()), stuck_.end());
+            sort_unique(stuck_);
             for (const HalfedgeId h : stuck_) {
                 if (!is_non_delaunay(mesh_, h)) continue;
                 if (may_flip(h)) {

@@ -8,6 +8,7 @@
 #include "delaunay/marked_mesh.hpp"
 #include "delaunay/non_delaunay.hpp"
 #include "delaunay/refine.hpp"
+#include "delaunay/vertex_limit.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -124,9 +125,7 @@ struct Attempt {
 /// `most_splits` over and above the limit in the options.
 Attempt attempt(const Mesh& mesh, Way way, std::size_t most_splits, const RemeshOptions& options,
                 const Context* context, const RemeshReport& so_far) {
-    RemeshOptions bounded = options;
-    const std::size_t most = mesh.vertex_count() + most_splits;
-    if (options.max_vertices == 0 || options.max_vertices > most) bounded.max_vertices = most;
+    const RemeshOptions bounded = with_at_most(options, mesh.vertex_count() + most_splits);
     Attempt result{mesh, so_far};
     flip_surface(result.mesh, way, bounded, context, result.report);
     return result;

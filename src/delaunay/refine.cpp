@@ -1,5 +1,6 @@
 #include "delaunay/refine.hpp"
 
+#include "base/sort_unique.hpp"
 #include "delaunay/clean.hpp"
 #include "delaunay/non_delaunay.hpp"
 #include "delaunay/splitter.hpp"
@@ -108,8 +109,7 @@ private:
         std::vector<EdgeId> bad;
         for (const HalfedgeId h : splits_)
             if (!marked_.is_planar(h) && is_non_delaunay(mesh_, h)) bad.push_back(mesh_.edge(h));
-        std::sort(bad.begin(), bad.end());
-        bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
+        sort_unique(bad);
         return bad;
     }
 

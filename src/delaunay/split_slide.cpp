@@ -75,9 +75,8 @@ bool SplitSlide::add_row(std::uint32_t e, std::size_t part) {
         if (seen.edge == SplitModel::none) continue;
         model_.prepare(seen.edge);
         if (slots_.size() < model_.edge_count()) slots_.resize(model_.edge_count());
-        const auto& sides = layout.edge(seen.edge).side;
-        const bool first = sides[0] != SplitModel::none && layout.side(sides[0]).facet == layout.side(s).facet;
-        const Point2 along = layout.side(s).turn(layout.side(sides[first ? 0 : 1]).along);
+        const std::size_t k = layout.side_within(seen.edge, layout.side(s).facet);
+        const Point2 along = layout.side(s).turn(layout.side(layout.edge(seen.edge).side[k]).along);
         const double by_x = (2 * seen.at.x - a - b) / d;
         const double by_y = (2 - seen.cot * (b - a) / seen.at.y) / (b - a);
         add_entry(row, seen.edge, model_.part_at(seen.edge, seen.along), by_x * along.x + by_y * along.y);

@@ -107,9 +107,8 @@ bool SplitTargets::move_across(int& k, Point& at) {
     double least = infinity;
     for (const Point& t : nearby_) {
         if (is_taken(t)) continue;
-        const auto& sides = layout.edge(t.edge).side;
-        const int near = sides[0] != SplitModel::none && layout.side(sides[0]).facet == from.facet ? 0 : 1;
-        const Point2 d = layout.side(sides[near]).at(t.at) - p;
+        const auto near = static_cast<int>(layout.side_within(t.edge, from.facet));
+        const Point2 d = layout.side(layout.edge(t.edge).side[near]).at(t.at) - p;
         if (dot(d, d) >= least) continue;
         least = dot(d, d);
         at = t;

@@ -11,7 +11,7 @@ constexpr std::size_t many_sides = 8;
 
 class Places {
 public:
-    Places(const SplitModel& model, const Interval& within, std::vector<double>& places)
+    Places(const SplitModel& model, const Stretch& within, std::vector<double>& places)
         : model_(model),
           layout_(model.layout()),
           within_(within),
@@ -25,15 +25,15 @@ public:
     }
 
     void continue_thread(std::uint32_t s) {
-        const Contact seen = model_.nearest(s, within_.low, within_.high);
+        const Contact seen = model_.nearest(s, within_.from, within_.to);
         take(seen.at.x);
         if (seen.edge == SplitModel::none) return;
         const Side& own = layout_.side(s);
         const auto& sides = layout_.edge(seen.edge).side;
-        const bool first = sides[0] != SplitModel::none && layout_.side(sides[0]).facet == own.facet;
-        const std::uint32_t far = sides[first ? 1 : 0];
+        const std::size_t k = layout_.side_within(seen.edge, own.facet);
+        const std::uint32_t far = sides[1 - k];
         if (far == SplitModel::none) return;
-        const Side& near = layout_.side(sides[first ? 0 : 1]);
+        const Side& near = layout_.side(sides[k]);
         const Point2 from = nearest_beyond(seen.edge, seen.along, far);
         // The frames of the two sides of an edge mirror each other.
         const Point2 up = (1 / dot(near.y_row, near.y_row)) * near.y_row;
@@ -43,7 +43,7 @@ public:
 
 private:
     void take(double t) {
-        if (t > within_.low && t < within_.high) places_.push_back(t);
+        if (t > within_.from && t < within_.to) places_.push_back(t);
     }
 
     void align_with(const Side& own, const Side& other) {
@@ -85,19 +85,19 @@ private:
 
     const SplitModel& model_;
     const FacetLayout& layout_;
-    Interval within_;
+    Stretch within_;
     std::vector<double>& places_;
 };
 
 }  // namespace
 
-void add_aligned_places(const SplitModel& model, std::uint32_t e, const Interval& within, std::vector<double>& places) {
+void add_aligned_places(const SplitModel& model, std::uint32_t e, const Stretch& within, std::vector<double>& places) {
     for (const std::uint32_t s : model.layout().edge(e).side)
         if (s != SplitModel::none) Places(model, within, places).align(model.layout().side(s));
     std::sort(places.begin(), places.end());
 }
 
-void add_thread_places(const SplitModel& model, std::uint32_t e, const Interval& within, std::vector<double>& places) {
+void add_thread_places(const SplitModel& model, std::uint32_t e, const Stretch& within, std::vector<double>& places) {
     for (const std::uint32_t s : model.layout().edge(e).side)
         if (s != SplitModel::none) Places(model, within, places).continue_thread(s);
     std::sort(places.begin(), places.end());

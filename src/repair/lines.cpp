@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include "base/sort_unique.hpp"
 
 namespace delmesh::repairing {
 namespace {
@@ -52,8 +53,7 @@ private:
         for (Index h = 0; h < complex_.halfedge_count(); ++h)
             if (wanted[complex_.place_from(h)] != 0 && wanted[complex_.place_to(h)] != 0)
                 edges_.push_back(edge(complex_.from(h), complex_.to(h)));
-        std::sort(edges_.begin(), edges_.end());
-        edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
+        sort_unique(edges_);
     }
 
     void find_first_vertices() {

@@ -1,8 +1,10 @@
 #include "simplify/numbering.hpp"
 
+#include "mesh/bounding_box.hpp"
+
 #include <algorithm>
-#include <array>
 #include <cstdint>
+#include <utility>
 
 namespace delmesh {
 namespace {
@@ -28,25 +30,6 @@ std::uint64_t spread(std::uint64_t x) {
     x = (x | x << 8) & 0x100f00f00f00f00f;
     x = (x | x << 4) & 0x10c30c30c30c30c3;
     return (x | x << 2) & 0x1249249249249249;
-}
-
-struct Keyed {
-    std::uint64_t key = 0;
-    VertexId vertex;
-};
-
-/// By key; equal keys keep their order.
-void radix_sort(std::vector<Keyed>& items) {
-    constexpr int digit = 11;
-    std::vector<Keyed> other(items.size());
-    for (int shift = 0; shift < 63; shift += digit) {
-        std::array<std::size_t, (1 << digit) + 1> first{};
-        const auto digit_of = [shift](const Keyed& k) { return (k.key >> shift) & ((1 << digit) - 1); };
-        for (const Keyed& k : items) ++first[digit_of(k) + 1];
-        for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
-        for (const Keyed& k : items) other[first[digit_of(k)]++] = k;
-        items.swap(other);
-    }
 }
 
 /// Faces in the order of the first of their vertices, then as they were.
@@ -107,17 +90,10 @@ CompactMap in_present_order(const Mesh& mesh) {
 }
 
 CompactMap in_order_of_place(const Mesh& mesh, double scale) {
-    Vec3 low;
-    bool any = false;
-    for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
-        if (!mesh.is_live(VertexId(v))) continue;
-        const Vec3& p = mesh.points()[v];
-        for (int axis = 0; axis < 3; ++axis) low[axis] = any ? std::min(low[axis], p[axis]) : p[axis];
-        any = true;
-    }
+    const Vec3 low = bounding_box(mesh).low;
     // Local coordinates reach 4 at most.
     constexpr double cells = 1 << 18;
-    std::vector<Keyed> order;
+    std::vector<std::pair<std::uint64_t, VertexId>> order;
     order.reserve(mesh.vertex_count());
     for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
         if (!mesh.is_live(VertexId(v))) continue;
@@ -125,11 +101,11 @@ CompactMap in_order_of_place(const Mesh& mesh, double scale) {
         const auto cell = [](double value) {
             return spread(static_cast<std::uint64_t>(std::clamp(value, 0.0, 2097151.0)));
         };
-        order.push_back({cell(x.x) << 2 | cell(x.y) << 1 | cell(x.z), VertexId(v)});
+        order.emplace_back(cell(x.x) << 2 | cell(x.y) << 1 | cell(x.z), VertexId(v));
     }
-    radix_sort(order);
+    std::sort(order.begin(), order.end());
     CompactMap map{std::vector<VertexId>(mesh.vertex_count()), {}};
-    for (std::size_t i = 0; i < order.size(); ++i) map.vertex[order[i].vertex.index()] = VertexId(i);
+    for (std::size_t i = 0; i < order.size(); ++i) map.vertex[order[i].second.index()] = VertexId(i);
     map.face = rank_faces(mesh, map.vertex);
     return map;
 }

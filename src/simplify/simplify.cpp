@@ -1,5 +1,6 @@
 #include "delmesh/simplify/simplify.hpp"
 
+#include "delaunay/vertex_limit.hpp"
 #include "delmesh/base/error.hpp"
 #include "delmesh/measure/certificate.hpp"
 #include "delmesh/measure/statistics.hpp"
@@ -164,10 +165,8 @@ RemeshReport remesh(Mesh& mesh, const RemeshOptions& options, const Context* con
     if (options.placement == SplitPlacement::shells) return make_delaunay(mesh, options, context);
     constexpr std::size_t searched_for = 20'000;
     const std::size_t vertices = mesh.vertex_count();
-    RemeshOptions shells = options;
+    RemeshOptions shells = with_at_most(options, vertices + std::max(searched_for, vertices));
     shells.placement = SplitPlacement::shells;
-    const std::size_t most = vertices + std::max(searched_for, vertices);
-    if (options.max_vertices == 0 || options.max_vertices > most) shells.max_vertices = most;
     Mesh by_shells = mesh;
     RemeshReport report = make_delaunay(by_shells, shells, context);
     const bool is_enough = report.splits <= vertices / 10 || report.splits > searched_for;

@@ -2,8 +2,7 @@
 
 #include "delmesh/base/error.hpp"
 #include "delmesh/mesh/edits.hpp"
-#include "delmesh/mesh/shapes.hpp"
-#include "delmesh/simplify/simplify.hpp"
+#include "simplify/delaunay_sample.hpp"
 #include "simplify/edge_cost.hpp"
 #include "simplify/walk.hpp"
 
@@ -15,11 +14,7 @@
 namespace delmesh {
 namespace {
 
-Mesh delaunay_sample(std::string_view name, std::size_t faces) {
-    Mesh mesh(make_sample(name, faces));
-    make_delaunay(mesh, SimplifyOptions::default_remesh());
-    return mesh;
-}
+using test::delaunay_sample;
 
 /// Tries all edges, as if none had been tried before.
 std::size_t count_possible(const Mesh& mesh, double scale) {

@@ -1,9 +1,8 @@
 #include "simplify/samples.hpp"
 
 #include "delmesh/delaunay/remesh.hpp"
-#include "delmesh/mesh/shapes.hpp"
-#include "delmesh/simplify/simplify.hpp"
 #include "simplify/decimator.hpp"
+#include "simplify/delaunay_sample.hpp"
 #include "simplify/frame.hpp"
 #include "simplify/sweeper.hpp"
 #include "simplify/triangle_point.hpp"
@@ -26,11 +25,7 @@ double nearest2(const Star& star, const Vec3& w, const Vec3& p) {
     return best;
 }
 
-Mesh delaunay_sample(std::string_view name, std::size_t faces) {
-    Mesh mesh(make_sample(name, faces));
-    make_delaunay(mesh, SimplifyOptions::default_remesh());
-    return mesh;
-}
+using test::delaunay_sample;
 
 class SamplesOf : public testing::TestWithParam<const char*> {};
 

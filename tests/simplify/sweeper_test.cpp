@@ -3,9 +3,8 @@
 #include "delmesh/measure/certificate.hpp"
 #include "delmesh/measure/distance.hpp"
 #include "delmesh/measure/statistics.hpp"
-#include "delmesh/mesh/shapes.hpp"
 #include "delmesh/mesh/validate.hpp"
-#include "delmesh/simplify/simplify.hpp"
+#include "simplify/delaunay_sample.hpp"
 #include "support/surface_facts.hpp"
 
 #include <gtest/gtest.h>
@@ -15,11 +14,7 @@
 namespace delmesh {
 namespace {
 
-Mesh delaunay_sample(std::string_view name, std::size_t faces) {
-    Mesh mesh(make_sample(name, faces));
-    make_delaunay(mesh, SimplifyOptions::default_remesh());
-    return mesh;
-}
+using test::delaunay_sample;
 
 class SweeperOn : public testing::TestWithParam<const char*> {};
 
