@@ -31,6 +31,8 @@ MAX_SOURCE_LINES = 600
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
+NAMESPACE = re.compile(r"^namespace ([\w:]+)", re.MULTILINE)
+DEFINED = re.compile(r"^(?:struct|class|enum class) (\w+)[^;(]*\{", re.MULTILINE)
 LEFT_OPEN = re.compile(r"\b(TODO|FIXME|XXX|HACK)\b")
 
 
@@ -91,6 +93,20 @@ def check_stems(paths):
             yield f"UNTESTED names {header}, which is not there"
 
 
+def check_names(root, paths):
+    """Two types of one name in headers break the one-definition rule, and no compiler need say so."""
+    first = {}
+    for path in paths:
+        if path.suffix != ".hpp" or path.parts[0] not in ("include", "src"):
+            continue
+        text = (root / path).read_text(encoding="utf-8")
+        space = NAMESPACE.search(text)
+        for name in DEFINED.findall(text):
+            other = first.setdefault((space and space.group(1), name), path)
+            if other != path:
+                yield f"{path}: defines {name}, as {other} does; a name stands for one type"
+
+
 def check_readme(root):
     """The README's program is the example that the tests compile and run."""
     example = root / "examples/remesh_file.cpp"
@@ -112,6 +128,7 @@ def check(root, paths):
     for path in sources:
         yield from check_file(path, (root / path).read_text(encoding="utf-8"))
     yield from check_stems(sources)
+    yield from check_names(root, sources)
     yield from check_links(root, [path for path in paths if path.suffix == ".md"])
     yield from check_readme(root)
 
@@ -137,6 +154,8 @@ def self_test():
         ("no #pragma once", {"src/mesh/x.hpp": "int x();\n"}),
         ("a public header has fewer", {"include/delmesh/mesh/a.hpp": once + "\n" * 200}),
         ("a source has at most", {"tests/mesh/a_test.cpp": "\n" * 601}),
+        ("a name stands for one type", {"src/mesh/x.hpp": once + "struct A {\n};\nstruct B;\nclass B {\n};\n",
+                                        "src/exact/y.hpp": once + "enum class A : int { a };\nstruct B;\n"}),
         ("left in the code", {"src/mesh/x.cpp": "// " + "TO" + "DO: later\n"}),
         ("no tests/mesh/c_test.cpp", {"include/delmesh/mesh/c.hpp": once}),
         ("still stands in UNTESTED", {"tests/exact/sign_test.cpp": ""}),
