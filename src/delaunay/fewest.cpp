@@ -2,6 +2,7 @@
 
 #include "base/sort_unique.hpp"
 #include "delaunay/choose_splits.hpp"
+#include "delaunay/probe_splits.hpp"
 #include "delaunay/split_point.hpp"
 #include "delaunay/vertex_limit.hpp"
 
@@ -91,7 +92,19 @@ private:
         return trial;
     }
 
+    /// A handful of points that only exact arithmetic finds.
+    TrialPointer by_probes(const Trial& shells) {
+        const std::size_t below = shells.done() ? shells.report.splits : unlimited;
+        const std::vector<SplitPoint> plan = probe_splits(marked_, options_, start_, below, context_);
+        if (plan.empty()) return nullptr;
+        auto trial = std::make_unique<Trial>(marked_, report_);
+        std::vector<HalfedgeId> left = carry_out(trial->marked, options_, context_, trial->report, start_, plan);
+        if (trial->done()) refine_and_clean(trial->marked, options_, context_, trial->report, std::move(left));
+        return trial->beats(shells) ? std::move(trial) : nullptr;
+    }
+
     TrialPointer better_of(TrialPointer shells) {
+        if (TrialPointer trial = by_probes(*shells)) return trial;
         SplitChooser chooser(marked_, start_.bad, {static_cast<int>(options_.effort), options_.seed});
         TrialPointer trial = by_search(chooser, *shells);
         if (options_.effort > 0 && !trial->cancelled() && misses_its_plan(*trial, chooser)) {
