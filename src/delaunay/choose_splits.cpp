@@ -10,6 +10,8 @@ namespace {
 
 /// A unit of work takes about 7 ns.
 constexpr double work_per_edge = 30'000;
+constexpr double quick_work_per_edge = 1'000;
+constexpr double quick_work_per_split = 200;
 constexpr double least_work = 200e6;
 /// Reached at 67,000 edges: nobody wants to wait for minutes unasked. A higher effort is asked.
 constexpr double most_work = 2e9;
@@ -77,6 +79,9 @@ double SplitChooser::default_work() const {
 }
 
 double SplitChooser::full_work() const {
+    if (options_.quick && !baseline_.empty())
+        return quick_work_per_edge * static_cast<double>(bad_.size()) +
+               quick_work_per_split * static_cast<double>(baseline_.size());
     return std::ldexp(default_work(), options_.effort - default_effort);
 }
 
@@ -86,7 +91,7 @@ void SplitChooser::search(const Context* context) {
     const bool in_blocks = bad_.size() >= many_edges;
     if (options_.effort > 0) in_blocks ? improve_blocks_once(false, context) : wait_for_open_edges(full, context);
     if (is_cancelled(context)) return;
-    search_.close_rings(static_cast<std::uint64_t>(0.1 * default_work()));
+    search_.close_rings(static_cast<std::uint64_t>(std::min(full, 0.1 * default_work())));
     search_.close_open(static_cast<std::uint64_t>(full));
     const double left = (1 + spare_share) * full - static_cast<double>(model_.work());
     if (options_.effort > 0)
@@ -99,6 +104,7 @@ void SplitChooser::search(const Context* context) {
     }
     if (baseline_.empty()) return;
     delmesh::take_better_regions(model_, search_.open(), placed_points(model_), baseline_);
+    is_compared_ = true;
 }
 
 /// For large angles. Does not need the work it may do.
@@ -163,11 +169,14 @@ bool SplitChooser::mend(std::span<const std::array<VertexId, 2>> edges) {
         const std::uint32_t e = edge_between(a, b);
         if (e != SplitModel::none) ids.push_back(e);
     }
-    return search_.mend(ids, static_cast<std::uint64_t>(0.1 * full_work()));
+    const bool changed = search_.mend(ids, static_cast<std::uint64_t>(0.1 * full_work()));
+    is_compared_ = is_compared_ && !changed;
+    return changed;
 }
 
 bool SplitChooser::take_better_regions(std::span<const SplitPoint> truth) {
-    return !baseline_.empty() && delmesh::take_better_regions(model_, {}, place(truth), baseline_) > 0;
+    if (baseline_.empty() || (is_compared_ && truth.size() == model_.point_count())) return false;
+    return delmesh::take_better_regions(model_, {}, place(truth), baseline_) > 0;
 }
 
 }  // namespace delmesh

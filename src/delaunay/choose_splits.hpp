@@ -18,6 +18,7 @@ namespace delmesh {
 struct SplitSearchOptions {
     int effort = 0;  ///< 0: construction only; each step more doubles the work
     std::uint64_t seed = 1;
+    bool quick = false;  ///< where there is a baseline, the construction takes about as long as that
 };
 
 /// Chooses points on physical edges after which, in exact arithmetic, all edges would be Delaunay. Deterministic.
@@ -55,8 +56,9 @@ private:
     SplitSearchOptions options_;
     std::vector<std::uint32_t> bad_;
     std::vector<PlacedPoint> baseline_;
-    int round_ = 0;           ///< of the search in blocks
-    double shares_done_ = 0;  ///< of the full work, in these rounds
+    bool is_compared_ = false;  ///< with the baseline, region by region, as the points are now
+    int round_ = 0;             ///< of the search in blocks
+    double shares_done_ = 0;    ///< of the full work, in these rounds
 };
 
 }  // namespace delmesh

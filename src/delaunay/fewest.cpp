@@ -105,13 +105,17 @@ private:
 
     TrialPointer better_of(TrialPointer shells) {
         if (TrialPointer trial = by_probes(*shells)) return trial;
-        SplitChooser chooser(marked_, start_.bad, {static_cast<int>(options_.effort), options_.seed});
+        const bool searches = options_.effort > 0;
+        SplitChooser chooser(marked_, start_.bad, {static_cast<int>(options_.effort), options_.seed, !searches});
         TrialPointer trial = by_search(chooser, *shells);
-        if (options_.effort > 0 && !trial->cancelled() && misses_its_plan(*trial, chooser)) {
+        if (searches && misses_its_plan(*trial, chooser)) {
             // Rounding broke what was found. It may leave alone what takes less searching.
-            SplitChooser simple(marked_, start_.bad, {0, options_.seed});
-            TrialPointer other = by_search(simple, *shells);
-            if (other->cancelled() || other->beats(*trial)) trial = std::move(other);
+            for (const bool quick : {false, true}) {
+                if (trial->cancelled()) break;
+                SplitChooser simple(marked_, start_.bad, {0, options_.seed, quick});
+                TrialPointer other = by_search(simple, *shells);
+                if (other->cancelled() || other->beats(*trial)) trial = std::move(other);
+            }
         }
         if (!shells->done() || trial->cancelled()) return trial;
         // By now it is known what the points cost in truth: regions where the shells need fewer take these.
