@@ -2,6 +2,7 @@
 
 #include "base/sort_unique.hpp"
 #include "delaunay/split_point.hpp"
+#include "delaunay/unit_frame.hpp"
 
 #include <algorithm>
 #include <array>
@@ -23,13 +24,13 @@ constexpr int last_ulps = 16;
 constexpr int even_places = 16;
 
 /// As a squared sine: the same bits everywhere.
-double smallest_angle(const Mesh& mesh) {
+double smallest_angle(const Mesh& mesh, const UnitFrame& frame) {
     double least = 1;
     for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
         const HalfedgeId h = Mesh::halfedge(FaceId(f));
-        const Vec3& a = mesh.point(mesh.origin(h));
-        const Vec3 u = mesh.point(mesh.target(h)) - a;
-        const Vec3 v = mesh.point(mesh.apex(h)) - a;
+        const Vec3 a = frame(mesh.point(mesh.origin(h)));
+        const Vec3 u = frame(mesh.point(mesh.target(h))) - a;
+        const Vec3 v = frame(mesh.point(mesh.apex(h))) - a;
         const Vec3 n = cross(u, v);
         std::array<double, 3> lengths{dot(u, u), dot(v, v), dot(v - u, v - u)};
         std::sort(lengths.begin(), lengths.end());
@@ -46,6 +47,7 @@ public:
           options_(options),
           start_(start),
           context_(context),
+          frame_(unit_frame(marked.mesh())),
           price_(try_work + static_cast<double>(marked.mesh().face_count())) {}
 
     std::vector<SplitPoint> run(std::size_t below) {
@@ -101,14 +103,14 @@ private:
     }
 
     /// Where what sees a part lies above it, and where it is as far from an end of the edge.
-    static std::vector<double> anchors(const Mesh& mesh, HalfedgeId h, const EdgePart& part) {
-        const Vec3& a = mesh.point(part.a);
-        const Vec3 along = mesh.point(part.b) - a;
+    [[nodiscard]] std::vector<double> anchors(const Mesh& mesh, HalfedgeId h, const EdgePart& part) const {
+        const Vec3 a = frame_(mesh.point(part.a));
+        const Vec3 along = frame_(mesh.point(part.b)) - a;
         const double length2 = dot(along, along);
         std::vector<double> places;
         for (const HalfedgeId side : {h, mesh.twin(h)}) {
             if (!side.valid()) continue;
-            const Vec3 apex = mesh.point(mesh.apex(side)) - a;
+            const Vec3 apex = frame_(mesh.point(mesh.apex(side))) - a;
             const double foot = dot(apex, along) / length2;
             const Vec3 back = apex - along;
             const double from_a = std::sqrt(dot(apex, apex) / length2);
@@ -137,7 +139,7 @@ private:
 
     void keep_if_better(const std::vector<SplitPoint>& plan, const Mesh& mesh) {
         work_ += static_cast<double>(mesh.face_count());
-        const double angle = smallest_angle(mesh);
+        const double angle = smallest_angle(mesh, frame_);
         if (!best_.empty() && !(angle > best_angle_)) return;
         best_angle_ = angle;
         best_ = plan;
@@ -147,6 +149,7 @@ private:
     const RemeshOptions& options_;
     const RefineStart& start_;
     const Context* context_;
+    UnitFrame frame_;
     double price_;
     double work_ = 0;
     std::vector<SplitPoint> best_;

@@ -68,6 +68,22 @@ TEST(NeedleFans, InFloatsNeedNoMore) {
     }
 }
 
+TEST(NeedleFans, OfAnySizeGetTheSamePoints) {
+    const Mesh fan = make_fan(40, 1e-9, 1);
+    Mesh expected = fan;
+    (void)make_delaunay(expected, {});
+    for (const double size : {0x1p-900, 0x1p-500, 0x1p500, 0x1p900}) {
+        PolygonSoup soup;
+        for (const Vec3& p : fan.points()) soup.points.push_back(size * p);
+        for (std::uint32_t i = 1; i <= 40; ++i) add_face(soup, 0, i, i + 1);
+        Mesh mesh(std::move(soup));
+        EXPECT_EQ(make_delaunay(mesh, {}).stop, StopReason::done);
+        ASSERT_EQ(mesh.vertex_count(), expected.vertex_count()) << size;
+        for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
+            EXPECT_EQ(mesh.point(VertexId(v)), size * expected.point(VertexId(v))) << size;
+    }
+}
+
 /// The boundary is Delaunay only if both angles at the point are right: exactly, which takes a foot that a double
 /// holds.
 TEST(ObtuseTriangles, NeedOnePointWhereARightAngleIsExact) {
