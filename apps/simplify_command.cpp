@@ -70,6 +70,12 @@ std::string obstacles(const LevelReport& level) {
     return text.empty() ? "" : "; edges blocked: " + text;
 }
 
+std::string topological_limit(const LevelReport& level, const SimplifyReport& report) {
+    if (level.target >= report.least_vertices) return "";
+    return fmt::format("; its components, handles and boundary loops need {} at least",
+                       with_commas(report.least_vertices));
+}
+
 Json level_to_json(const Level& level) {
     Json json{{"target", level.report.target},
               {"path", level.path},
@@ -90,6 +96,7 @@ Json run_to_json(const SimplifyArguments& arguments, const Outcome& outcome) {
     for (const Level& level : outcome.levels) json["levels"].push_back(level_to_json(level));
     if (!outcome.levels.empty()) json["output"] = json["levels"].back();
     json["stop"] = name(outcome.report.stop);
+    json["least_vertices"] = outcome.report.least_vertices;
     json["collapses"] = outcome.report.collapses;
     json["moves"] = outcome.report.moves;
     json["remeshed"] = outcome.report.remesh.has_value();
@@ -188,9 +195,9 @@ int run_simplify(SimplifyArguments& arguments, Console& console) {
 
     for (const Level& level : outcome.levels) {
         if (level.written && is_wanted_end(arguments, level.report)) continue;
-        fmt::print(stderr, "delmesh: {}: stopped at {} vertices instead of {} ({}){}{}\n", arguments.input,
+        fmt::print(stderr, "delmesh: {}: stopped at {} vertices instead of {} ({}){}{}{}\n", arguments.input,
                    with_commas(level.report.vertices), with_commas(level.report.target), name(level.report.stop),
-                   obstacles(level.report),
+                   topological_limit(level.report, outcome.report), obstacles(level.report),
                    level.written ? "" : "; nothing was written for it (--keep-partial writes what there is)");
         return exit_stopped;
     }

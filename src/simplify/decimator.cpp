@@ -62,18 +62,51 @@ void Decimator::continue_from(const Sweeper& sweeper) {
     samples_->reattach(mesh_, scale_, sweeper.merged_into());
 }
 
-std::size_t Decimator::refit(const RefitTuning& tuning, const Context* context) {
-    const auto settle = [this](const Vec3& w) { return settled(w); };
-    const auto moved = [this](VertexId v, const Vec3& w) {
-        if (recorder_ != nullptr) recorder_->moved(v, mesh_.point(v));
-        weights_.set_history(v, weights_.history(v).moved_to((w - mesh_.point(v)) * scale_));
-    };
-    Refitter refitter(mesh_, *samples_, placer_, scale_, settle, moved);
-    const std::size_t moves = refitter.run(tuning, allowed2(), context);
+/// v is about to move.
+void Decimator::move_history(VertexId v, const Vec3& to) {
+    if (recorder_ != nullptr) recorder_->moved(v, mesh_.point(v));
+    weights_.set_history(v, weights_.history(v).moved_to((to - mesh_.point(v)) * scale_));
+}
+
+/// Any vertex may have moved.
+void Decimator::start_afresh() {
     for (std::size_t v = 0; v < mesh_.vertex_count(); ++v)
         if (mesh_.halfedge(VertexId(v)).valid()) weights_.refresh(VertexId(v));
     enqueue_all();
+}
+
+std::size_t Decimator::refit(const RefitTuning& tuning, const Context* context) {
+    const auto settle = [this](const Vec3& w) { return settled(w); };
+    const auto moved = [this](VertexId v, const Vec3& w) { move_history(v, w); };
+    Refitter refitter(mesh_, *samples_, placer_, scale_, settle, moved);
+    const std::size_t moves = refitter.run(tuning, allowed2(), context);
+    start_afresh();
     return moves;
+}
+
+void Decimator::close_gaps(Numbering& numbering) {
+    for (std::size_t v = 0; v < mesh_.vertex_count(); ++v)
+        if (mesh_.is_live(VertexId(v)) && !mesh_.halfedge(VertexId(v)).valid()) remove_isolated(mesh_, VertexId(v));
+    const CompactMap map = in_present_order(mesh_);
+    numbering.renumber(mesh_, map);
+    weights_.renumber(map.vertex);
+    if (samples_) samples_->renumber(map.face, mesh_.face_count());
+    blocked_.resize(mesh_.halfedge_count());
+    stamp_.resize(mesh_.halfedge_count());
+    watches_ = Watchlists<Watch>(mesh_.vertex_count());
+    enqueue_all();
+}
+
+void Decimator::loosen(std::uint64_t seed, double freedom) {
+    placer_.look_harder();
+    const auto settle = [this](const Vec3& w) { return settled(w); };
+    const auto moved = [this](VertexId v, const Vec3& w) { move_history(v, w); };
+    Loosener loosener(mesh_, samples_ ? &*samples_ : nullptr, scale_, settle, moved);
+    // A progressive mesh knows no flips.
+    Loosener::Pass pass{.seed = seed, .flips = recorder_ == nullptr, .boundary = seed % 4 == 3};
+    pass.allowed2 = samples_ ? freedom * allowed2() : 0;
+    (void)loosener.run(pass);
+    start_afresh();
 }
 
 double Decimator::key_of(HalfedgeId h) const {

@@ -3,6 +3,7 @@
 
 #include "delmesh/base/context.hpp"
 #include "delmesh/mesh/mesh.hpp"
+#include "simplify/loosen.hpp"
 #include "simplify/placement.hpp"
 #include "simplify/queue.hpp"
 #include "simplify/recorder.hpp"
@@ -51,7 +52,13 @@ public:
     void guard_for(std::size_t vertices);
     /// Moves vertices towards the samples that are followed; returns how many moves it took.
     std::size_t refit(const RefitTuning& tuning, const Context* context = nullptr);
+    /// Renumbers the mesh so that there are no dead elements any more. Not while steps are recorded.
+    void close_gaps(Numbering& numbering);
+    /// From here on looks harder for places, and changes the mesh where edges are blocked, so that they have another
+    /// chance: see `Loosener`. `freedom` is how much larger than usual an error may get (its square).
+    void loosen(std::uint64_t seed, double freedom);
 
+    [[nodiscard]] bool has_samples() const { return samples_.has_value(); }
     /// Requires `follow_samples`.
     [[nodiscard]] SurfaceSamples& samples() { return *samples_; }
     [[nodiscard]] double scale() const { return scale_; }
@@ -84,6 +91,8 @@ private:
     void enqueue(HalfedgeId h);
     void forget(HalfedgeId h);
     [[nodiscard]] Watch wait(HalfedgeId h, Blocker why);
+    void move_history(VertexId v, const Vec3& to);
+    void start_afresh();
     void watch_ring(const Watch& watch);
     void block(HalfedgeId h, Blocker why);
     [[nodiscard]] double allowed2() const;

@@ -6,6 +6,12 @@
 #include <cmath>
 
 namespace delmesh {
+namespace {
+
+/// Steps of sequential quadratic programming when looking harder.
+constexpr int patient_steps = 6;
+
+}  // namespace
 
 bool Placer::fits(Star& star, const Vec3& w) {
     ++evaluations_;
@@ -108,7 +114,8 @@ void Placer::descend(Star& star, const EdgeCost& cost, Place& place, bool feasib
     const auto factors = factorise(cost.steered);
     if (!factors) return;
     Vec3 at = place.point;
-    for (int step = 0; step < tuning_.sqp_steps; ++step) {
+    const int steps = looks_harder_ ? patient_steps : tuning_.sqp_steps;
+    for (int step = 0; step < steps; ++step) {
         linearise(star, at);
         ++programs_;
         const auto goal = minimise(*factors, half_spaces_);
@@ -135,6 +142,23 @@ void Placer::descend(Star& star, const EdgeCost& cost, Place& place, bool feasib
     }
 }
 
+/// From places where the cost says nothing, but where there may be more room.
+std::optional<Place> Placer::best_from_afar(Star& star, const EdgeCost& cost, const Vec3& goal) {
+    Vec3 centre;
+    for (const Star::Corner& corner : star.ring) centre = centre + corner.point;
+    centre = centre * (1.0 / static_cast<double>(star.ring.size()));
+    const std::array<Vec3, 4> starts{centre, star.ring[0].point, (centre + star.u_point) * 0.5,
+                                     (centre + star.v_point) * 0.5};
+    for (const Vec3& start : starts) {
+        Place place{start, cost.steered(start)};
+        bool found = fits(star, start);
+        if (found) bisect(star, cost, goal, place);
+        descend(star, cost, place, found, found);
+        if (found) return place;
+    }
+    return std::nullopt;
+}
+
 std::optional<Place> Placer::best(Star& star, const EdgeCost& cost) {
     fail_first_ = 0;
     const auto factors = factorise(cost.steered);
@@ -155,6 +179,7 @@ std::optional<Place> Placer::best(Star& star, const EdgeCost& cost) {
     Place place = found ? *found : Place{goal, optimum};
     if (ok) bisect(star, cost, goal, place);
     if (tuning_.sqp_steps > 0 && (!ok || place.cost > optimum)) descend(star, cost, place, ok, ok);
+    if (!ok && looks_harder_) return best_from_afar(star, cost, goal);
     if (!ok) return std::nullopt;
     return place;
 }

@@ -22,6 +22,8 @@ public:
 
     /// The best place found where all conditions hold in floating point, or why there is none.
     std::optional<Place> best(Star& star, const EdgeCost& cost);
+    /// From now on `best` starts from more places and takes more steps. Many times slower where edges are blocked.
+    void look_harder() { looks_harder_ = true; }
     /// The paper's: the lowest point over the intersection of half-spaces.
     std::optional<Place> paper(Star& star, const EdgeCost& cost);
 
@@ -39,11 +41,13 @@ public:
 private:
     bool fits(Star& star, const Vec3& w);
     void bisect(Star& star, const EdgeCost& cost, const Vec3& goal, Place& place);
+    [[nodiscard]] std::optional<Place> best_from_afar(Star& star, const EdgeCost& cost, const Vec3& goal);
     void descend(Star& star, const EdgeCost& cost, Place& place, bool feasible, bool& found);
     void linearise(Star& star, const Vec3& w);
 
     const Mesh& mesh_;
     const Tuning& tuning_;
+    bool looks_harder_ = false;
     Blocker blocker_ = Blocker::none;
     Blocker last_ = Blocker::none;
     std::size_t witness_ = 0;

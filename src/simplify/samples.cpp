@@ -95,6 +95,13 @@ void SurfaceSamples::reattach(const Mesh& mesh, double scale, const std::vector<
     near_.clear();
 }
 
+void SurfaceSamples::renumber(const std::vector<FaceId>& ids, std::size_t faces) {
+    std::vector<std::uint32_t> first(faces, none);
+    for (std::size_t f = 0; f < ids.size(); ++f)
+        if (ids[f].valid()) first[ids[f].index()] = first_[f];
+    first_.swap(first);
+}
+
 void SurfaceSamples::gather(const Star& star) {
     members_.clear();
     present_ = {};

@@ -31,6 +31,9 @@ public:
     /// become.
     void reattach(const Mesh& mesh, double scale, const std::vector<VertexId>& now);
 
+    /// The faces have got other ids.
+    void renumber(const std::vector<FaceId>& ids, std::size_t faces);
+
     struct Member {
         Vec3 point;  ///< local to the star
         std::uint32_t sample = 0;

@@ -7,6 +7,7 @@
 #include "delmesh/mesh/edits.hpp"
 #include "delmesh/simplify/progressive_mesh.hpp"
 #include "simplify/decimator.hpp"
+#include "simplify/least_vertices.hpp"
 #include "simplify/sweeper.hpp"
 
 #include <fmt/format.h>
@@ -128,6 +129,33 @@ std::size_t refit_on_the_way(Decimator& decimator, std::size_t input_vertices, s
     return moves;
 }
 
+/// Where nothing else helps: shakes the mesh until edges come free, more and more strongly; now and then a refit takes
+/// back what that has spoiled.
+void shake_free(Decimator& decimator, std::size_t target, const Context* context) {
+    constexpr std::size_t patience = 1'000'000;  // places tried, vertices looked at
+    constexpr std::size_t most = 30'000'000;
+    constexpr double gentle = 4;
+    constexpr double strong = 1e4;
+    std::size_t work = 0;
+    std::size_t last_gain = 0;
+    double freedom = gentle;
+    for (std::uint64_t seed = 1; decimator.vertices() > target && !is_cancelled(context); ++seed) {
+        const std::size_t before = decimator.vertices();
+        const std::size_t tried = decimator.placer().evaluations();
+        decimator.loosen(seed, freedom);
+        decimator.run(target, context);
+        work += decimator.placer().evaluations() - tried + 4 * before;
+        if (decimator.vertices() < before) last_gain = work;
+        if (before - decimator.vertices() > before / 64) {
+            freedom = gentle;
+        } else if ((freedom *= 1.5) > strong) {
+            freedom = gentle;
+            if (decimator.has_samples()) (void)decimator.refit({.rounds = 1}, context);
+        }
+        if (work > last_gain + patience || work > most) break;
+    }
+}
+
 /// Where all edges are blocked, moving the vertices frees some.
 std::size_t run_on(Decimator& decimator, std::size_t target, bool refit, const Context* context) {
     std::size_t moves = 0;
@@ -135,9 +163,10 @@ std::size_t run_on(Decimator& decimator, std::size_t target, bool refit, const C
         const std::size_t before = decimator.vertices();
         decimator.run(target, context);
         const bool further = decimator.vertices() > target && decimator.vertices() < before;
-        if (!refit || !further || is_cancelled(context)) return moves;
+        if (!refit || !further || is_cancelled(context)) break;
         moves += decimator.refit({.rounds = 1}, context);
     }
+    return moves;
 }
 
 }  // namespace
@@ -206,7 +235,9 @@ SimplifyReport run(Mesh& mesh, const SimplifyOptions& options, ProgressiveMesh* 
         if (record != nullptr) *record = {mesh, {}};
         return report;
     }
-    const bool refit = options.refit && options.max_quadric_error_rel == 0 && options.placement == Placement::best;
+    report.least_vertices = least_vertices(mesh);
+    const bool shakes = options.max_quadric_error_rel == 0 && options.placement == Placement::best;
+    const bool refit = options.refit && shakes;
     const std::vector<std::size_t> targets = find_targets(options, report.input_vertices);
     const Tuning tuning = tuning_for(options);
     Numbering numbering(mesh);
@@ -228,6 +259,10 @@ SimplifyReport run(Mesh& mesh, const SimplifyOptions& options, ProgressiveMesh* 
         decimator.guard_for(target);
         if (refit) report.moves += refit_on_the_way(decimator, report.input_vertices, target, context);
         report.moves += run_on(decimator, target, refit, context);
+        if (shakes && decimator.vertices() > std::max(target, report.least_vertices)) {
+            if (record == nullptr) decimator.close_gaps(numbering);
+            shake_free(decimator, std::max(target, report.least_vertices), context);
+        }
         report.levels.push_back(describe_level(decimator, target, context));
         if (refit && decimator.counts().collapses > 0) report.moves += decimator.refit(at_level, context);
         report.stop = report.levels.back().stop;

@@ -99,6 +99,37 @@ TEST(Simplify, AClosedSphereGoesDownToATetrahedron) {
     EXPECT_EQ(report.levels.back().vertices, 4u);
 }
 
+/// Where all edges are blocked, the mesh is shaken until some are free.
+TEST(Simplify, HandlesAndNeedlesDoNotHoldUpTargets) {
+    struct Case {
+        const char* name;
+        std::size_t faces, target;
+    };
+    for (const Case& c : {Case{"thin-helix", 300, 15}, Case{"plate", 600, 45}, Case{"torus", 600, 8}}) {
+        std::uint64_t bits = 0;
+        for (int run = 0; run < 2; ++run) {
+            Mesh mesh = sample(c.name, c.faces);
+            const SurfaceFacts before = test::examine(to_soup(mesh));
+            const SimplifyReport report = simplify(mesh, to_vertices(c.target));
+            EXPECT_EQ(report.stop, SimplifyStop::done) << c.name;
+            EXPECT_EQ(mesh.vertex_count(), c.target) << c.name;
+            expect_sound(mesh, before, c.name);
+            const std::uint64_t now = test::hash_bits(to_soup(mesh));
+            EXPECT_EQ(run == 0 ? now : bits, now) << c.name;
+            bits = now;
+        }
+    }
+}
+
+TEST(Simplify, NamesTheTopologicalLimit) {
+    Mesh mesh = sample("torus", 600);
+    const SimplifyReport report = simplify(mesh, to_vertices(3));
+    EXPECT_EQ(report.least_vertices, 7u);
+    EXPECT_EQ(report.stop, SimplifyStop::blocked);
+    EXPECT_LE(mesh.vertex_count(), 9u);
+    EXPECT_TRUE(certify(mesh).certified);
+}
+
 TEST(Simplify, TheSameInputGivesTheSameBits) {
     const auto run = [] {
         Mesh mesh = sample("torus", 2000);

@@ -113,6 +113,8 @@ struct SimplifyReport {
     /// Given if the input was not Delaunay and was remeshed first.
     std::optional<RemeshReport> remesh;
     std::size_t input_vertices = 0;  ///< of the mesh as it came, isolated ones included: what `ratio` refers to
+    /// No mesh with the same components, handles and boundary loops has fewer vertices. 0 if nothing was simplified.
+    std::size_t least_vertices = 0;
     std::size_t collapses = 0;
     std::size_t moves = 0;  ///< vertices moved by refitting
     std::vector<LevelReport> levels;

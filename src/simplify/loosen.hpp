@@ -1,0 +1,54 @@
+#pragma once
+// Shakes a decimated mesh in which no edge can be collapsed any more, so that some can.
+
+#include "delmesh/mesh/mesh.hpp"
+#include "simplify/placement.hpp"
+#include "simplify/samples.hpp"
+#include "simplify/star.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <utility>
+
+namespace delmesh {
+
+/// Flips edges whose other diagonal is Delaunay as well (two faces that do not lie in a plane often have two such
+/// diagonals) and moves vertices. The mesh is Delaunay after each change. What is tried is drawn by a generator whose
+/// seed is given.
+class Loosener {
+public:
+    /// As `Refitter`; `samples` may be null.
+    Loosener(Mesh& mesh, SurfaceSamples* samples, double scale, std::function<Vec3(const Vec3&)> settle,
+             std::function<void(VertexId, const Vec3&)> moved)
+        : mesh_(mesh),
+          samples_(samples),
+          scale_(scale),
+          settle_(std::move(settle)),
+          moved_(std::move(moved)) {}
+
+    struct Pass {
+        std::uint64_t seed = 0;
+        bool flips = true;     ///< half of the edges are tried
+        bool boundary = true;  ///< moves vertices of the boundary as well
+        double allowed2 = 0;   ///< squared, local unit: no sample gets farther from the surface, or than it was
+    };
+    /// Edges, then vertices. Returns the number of changes.
+    std::size_t run(const Pass& pass);
+
+private:
+    bool flip_edge(HalfedgeId h, double allowed2);
+    bool move_vertex(VertexId v, double allowed2);
+    void gather_flipped(HalfedgeId h);
+    [[nodiscard]] Vec3 draw_place();
+    [[nodiscard]] double draw();
+
+    Mesh& mesh_;
+    SurfaceSamples* samples_;
+    double scale_;
+    std::function<Vec3(const Vec3&)> settle_;
+    std::function<void(VertexId, const Vec3&)> moved_;
+    std::uint64_t state_ = 0;
+    Star star_;
+};
+
+}  // namespace delmesh
