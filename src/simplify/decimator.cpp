@@ -102,10 +102,7 @@ void Decimator::loosen(std::uint64_t seed, double freedom) {
     const auto settle = [this](const Vec3& w) { return settled(w); };
     const auto moved = [this](VertexId v, const Vec3& w) { move_history(v, w); };
     Loosener loosener(mesh_, samples_ ? &*samples_ : nullptr, scale_, settle, moved);
-    // A progressive mesh knows no flips.
-    Loosener::Pass pass{.seed = seed, .flips = recorder_ == nullptr, .boundary = seed % 4 == 3};
-    pass.allowed2 = samples_ ? freedom * allowed2() : 0;
-    (void)loosener.run(pass);
+    (void)loosener.run({.seed = seed, .boundary = seed % 4 == 3, .allowed2 = samples_ ? freedom * allowed2() : 0});
     start_afresh();
 }
 

@@ -55,7 +55,8 @@ public:
     /// Renumbers the mesh so that there are no dead elements any more. Not while steps are recorded.
     void close_gaps(Numbering& numbering);
     /// From here on looks harder for places, and changes the mesh where edges are blocked, so that they have another
-    /// chance: see `Loosener`. `freedom` is how much larger than usual an error may get (its square).
+    /// chance: see `Loosener`. `freedom` is how much larger than usual an error may get (its square). Not
+    /// while steps are recorded: a progressive mesh knows no flips.
     void loosen(std::uint64_t seed, double freedom);
 
     [[nodiscard]] bool has_samples() const { return samples_.has_value(); }

@@ -129,7 +129,7 @@ bool Loosener::move_vertex(VertexId v, double allowed2) {
 std::size_t Loosener::run(const Pass& pass) {
     state_ = pass.seed;
     std::size_t changes = 0;
-    for (std::size_t i = 0; pass.flips && i < mesh_.halfedge_count(); ++i) {
+    for (std::size_t i = 0; i < mesh_.halfedge_count(); ++i) {
         const HalfedgeId h(i);
         if (!mesh_.origin(h).valid() || !mesh_.names_edge(h) || mesh_.is_boundary(h) || draw() < 0.5) continue;
         changes += flip_edge(h, pass.allowed2) ? 1 : 0;

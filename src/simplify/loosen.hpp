@@ -28,11 +28,10 @@ public:
 
     struct Pass {
         std::uint64_t seed = 0;
-        bool flips = true;     ///< half of the edges are tried
         bool boundary = true;  ///< moves vertices of the boundary as well
         double allowed2 = 0;   ///< squared, local unit: no sample gets farther from the surface, or than it was
     };
-    /// Edges, then vertices. Returns the number of changes.
+    /// Half of the edges, then all vertices. Returns the number of changes.
     std::size_t run(const Pass& pass);
 
 private:

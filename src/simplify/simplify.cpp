@@ -132,7 +132,7 @@ std::size_t refit_on_the_way(Decimator& decimator, std::size_t input_vertices, s
 /// Where nothing else helps: shakes the mesh until edges come free, more and more strongly; now and then a refit takes
 /// back what that has spoiled.
 void shake_free(Decimator& decimator, std::size_t target, const Context* context) {
-    constexpr std::size_t patience = 1'000'000;  // places tried, vertices looked at
+    const std::size_t patience = 200'000 + 20 * decimator.vertices();  // places tried, vertices looked at
     constexpr std::size_t most = 30'000'000;
     constexpr double gentle = 4;
     constexpr double strong = 1e4;
@@ -259,8 +259,8 @@ SimplifyReport run(Mesh& mesh, const SimplifyOptions& options, ProgressiveMesh* 
         decimator.guard_for(target);
         if (refit) report.moves += refit_on_the_way(decimator, report.input_vertices, target, context);
         report.moves += run_on(decimator, target, refit, context);
-        if (shakes && decimator.vertices() > std::max(target, report.least_vertices)) {
-            if (record == nullptr) decimator.close_gaps(numbering);
+        if (shakes && record == nullptr && decimator.vertices() > std::max(target, report.least_vertices)) {
+            decimator.close_gaps(numbering);
             shake_free(decimator, std::max(target, report.least_vertices), context);
         }
         report.levels.push_back(describe_level(decimator, target, context));
