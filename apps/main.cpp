@@ -7,6 +7,9 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
+#if __has_include(<malloc.h>)
+#include <malloc.h>
+#endif
 
 #include <cstdio>
 #include <new>
@@ -48,6 +51,14 @@ void occupy_closed_streams() {
     }
 }
 
+/// Large blocks go back to the system when they are freed. By itself the allocator would keep them, in pieces, once the
+/// first large one has been freed.
+void give_back_memory() {
+#ifdef M_MMAP_THRESHOLD
+    ::mallopt(M_MMAP_THRESHOLD, 256 * 1024);
+#endif
+}
+
 int run(const Action& action) {
     try {
         Console console(action.common);
@@ -72,6 +83,7 @@ int run(const Action& action) {
 int main(int argc, char** argv) {
     using namespace delmesh::app;
     occupy_closed_streams();
+    give_back_memory();
     CLI::App app("Turns any triangle mesh into a Delaunay mesh, and proves that it is one.", "delmesh");
     app.require_subcommand(1);
     app.set_version_flag("--version", DELMESH_VERSION);

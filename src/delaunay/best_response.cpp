@@ -49,20 +49,21 @@ void BestResponse::look(std::uint32_t e) {
         view.points.clear();
         view.listed = false;
         if (view.side == SplitModel::none) continue;
-        const Side& side = layout.side(view.side);
+        const Side side = layout.side(view.side);
         const Facet& facet = layout.facet(side.facet);
         if (!facet.single) continue;
         view.listed = true;
         view.points.push_back(side.apex);
         for (std::uint32_t s = facet.first_side; s < facet.first_side + 3; ++s)
-            if (s != view.side) look_at(side, layout.side(s), view.points);
+            if (s != view.side) look_at(side, s, view.points);
         view.listed = view.points.size() <= longest_list;
     }
 }
 
-void BestResponse::look_at(const Side& side, const Side& other, std::vector<Point2>& points) const {
-    const std::size_t n = model_.point_count(other.edge);
+void BestResponse::look_at(const Side& side, std::uint32_t s, std::vector<Point2>& points) const {
+    const std::size_t n = model_.point_count(model_.layout().edge_at(s));
     if (n == 0) return;
+    const Side other = model_.layout().side(s);
     const Point2 p = side.to_frame(other.start);
     const Point2 d = side.turn(other.along);
     for (const Part& part : model_.parts(other.edge).first(n)) {
@@ -144,9 +145,9 @@ void BestResponse::block(std::uint32_t e) {
     blocked_.clear();
     for (const std::uint32_t own : model_.layout().edge(e).side) {
         if (own == SplitModel::none) continue;
-        const Facet& facet = model_.layout().facet(model_.layout().side(own).facet);
+        const Facet& facet = model_.layout().facet(model_.layout().facet_at(own));
         for (std::uint32_t s = facet.first_side; s < facet.first_side + facet.side_count; ++s)
-            if (model_.layout().side(s).edge != e) block_by_side(own, s);
+            if (model_.layout().edge_at(s) != e) block_by_side(own, s);
     }
     find_cells();
 }
@@ -154,8 +155,8 @@ void BestResponse::block(std::uint32_t e) {
 /// A point (x,y) makes a part [a,b] of side s bad where (a-x)(b-x) + y^2 < level * y * (b-a): inside a circle, so in an
 /// interval of the edge.
 void BestResponse::block_by_side(std::uint32_t own_side, std::uint32_t s) {
-    const Side& own = model_.layout().side(own_side);
-    const Side& side = model_.layout().side(s);
+    const Side own = model_.layout().side(own_side);
+    const Side side = model_.layout().side(s);
     const Point2 p = side.to_frame(own.start);
     const Point2 d = side.turn(own.along);
     if (p.y <= flat && p.y + d.y <= flat) return;

@@ -58,7 +58,7 @@ private:
     };
 
     void look(std::uint32_t e);
-    void look_at(const Side& side, const Side& other, std::vector<Point2>& points) const;
+    void look_at(const Side& side, std::uint32_t s, std::vector<Point2>& points) const;
     [[nodiscard]] Point2 nearest(const View& view, double a, double b, double& cot) const;
     [[nodiscard]] double step(double a, double b, bool up) const;
     [[nodiscard]] double reach_up(double from) const;

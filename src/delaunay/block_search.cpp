@@ -65,7 +65,7 @@ private:
         for (const std::uint32_t f : blocks_.facets[block_]) {
             const Facet& facet = layout.facet(f);
             for (std::uint32_t s = facet.first_side; s < facet.first_side + facet.side_count; ++s) {
-                const std::uint32_t e = layout.side(s).edge;
+                const std::uint32_t e = layout.edge_at(s);
                 const auto& sides = layout.edge(e).side;
                 // Edges within the block turn up twice.
                 if (sides[1] == s && sides[0] != SplitModel::none && block_at(sides[0]) == block_) continue;
@@ -101,11 +101,11 @@ private:
     }
 
     [[nodiscard]] std::uint32_t block_at(std::uint32_t side) const {
-        return blocks_.block_of[whole_.layout().side(side).facet];
+        return blocks_.block_of[whole_.layout().facet_at(side)];
     }
     [[nodiscard]] bool is_inner(const std::array<std::uint32_t, 2>& sides) const {
         return std::all_of(sides.begin(), sides.end(), [&](std::uint32_t s) {
-            return s == SplitModel::none || blocks_.is_inner[whole_.layout().side(s).facet];
+            return s == SplitModel::none || blocks_.is_inner[whole_.layout().facet_at(s)];
         });
     }
 
@@ -141,11 +141,12 @@ void widen(SplitModel& model) {
         if (model.point_count(e) == 0) continue;
         for (const std::uint32_t side : layout.edge(e).side) {
             if (side == SplitModel::none) continue;
-            const Facet& facet = layout.facet(layout.side(side).facet);
+            const Facet& facet = layout.facet(layout.facet_at(side));
             for (std::uint32_t s = facet.first_side; s < facet.first_side + facet.side_count; ++s)
-                around.push_back(layout.side(s).edge);
+                around.push_back(layout.edge_at(s));
         }
     }
+    model.expect(around.size());
     for (const std::uint32_t e : around) model.prepare(e);
 }
 

@@ -30,9 +30,9 @@ public:
             Item item;
             item.facet = f;
             for (std::uint32_t s = facet.first_side; s < facet.first_side + facet.side_count; ++s)
-                item.points += model.point_count(layout_.side(s).edge);
+                item.points += model.point_count(layout_.edge_at(s));
             if (facet.side_count > 0)
-                item.at = mesh.point(mesh.origin(layout_.edge(layout_.side(facet.first_side).edge).halfedge));
+                item.at = mesh.point(mesh.origin(layout_.edge(layout_.edge_at(facet.first_side)).halfedge));
             items_.push_back(item);
         }
         result_.block_of.assign(items_.size(), FacetBlocks::none);
@@ -97,11 +97,11 @@ private:
         for (std::uint32_t f = 0; f < layout_.facet_count(); ++f) {
             const Facet& facet = layout_.facet(f);
             for (std::uint32_t s = facet.first_side; s < facet.first_side + facet.side_count; ++s) {
-                const FacetLayout::Edge& edge = layout_.edge(layout_.side(s).edge);
+                const FacetLayout::Edge& edge = layout_.edge(layout_.edge_at(s));
                 const std::uint32_t other = edge.side[edge.side[0] == s ? 1 : 0];
                 const bool open = layout_.marked().mesh().is_boundary(edge.halfedge);
                 if (open ||
-                    (other != FacetBlocks::none && result_.block_of[layout_.side(other).facet] == result_.block_of[f]))
+                    (other != FacetBlocks::none && result_.block_of[layout_.facet_at(other)] == result_.block_of[f]))
                     continue;
                 result_.is_inner[f] = false;
             }

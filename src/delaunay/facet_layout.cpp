@@ -55,7 +55,11 @@ double largest_coordinate(const Mesh& mesh) {
 
 }  // namespace
 
-FacetLayout::FacetLayout(const MarkedMesh& marked) : marked_(marked), mesh_(marked.mesh()) {
+FacetLayout::FacetLayout(const MarkedMesh& marked)
+    : marked_(marked),
+      mesh_(marked.mesh()),
+      facet_of_face_(mesh_.face_count()),
+      edge_of_halfedge_(mesh_.halfedge_count()) {
     const double largest = largest_coordinate(mesh_);
     if (!(largest > 0)) return;
     // A power of two, in two factors since one may overflow, brings all coordinates below 1.
@@ -68,7 +72,9 @@ FacetLayout::FacetLayout(const MarkedMesh& marked, const FacetLayout& other)
     : marked_(marked),
       mesh_(marked.mesh()),
       scale_(other.scale_),
-      second_scale_(other.second_scale_) {}
+      second_scale_(other.second_scale_),
+      facet_of_face_(mesh_.face_count()),
+      edge_of_halfedge_(mesh_.halfedge_count()) {}
 
 Vec3 FacetLayout::scaled(VertexId v) const {
     return second_scale_ * (scale_ * mesh_.point(v));
@@ -99,27 +105,36 @@ void FacetLayout::complete(std::uint32_t edge) {
     if (!mesh_.is_boundary(h)) facet_of(Mesh::face(mesh_.twin(h)));
 }
 
+void FacetLayout::expect(std::size_t facets) {
+    facets_.reserve(std::min(facets_.size() + facets, mesh_.face_count()));
+    records_.reserve(std::min(records_.size() + 3 * facets, mesh_.halfedge_count()));
+    corners_.reserve(std::min(corners_.size() + 3 * facets, mesh_.halfedge_count()));
+    edges_.reserve(std::min(edges_.size() + 2 * facets, mesh_.halfedge_count()));
+}
+
 std::uint32_t FacetLayout::facet_of(FaceId f) {
     const std::uint32_t known = facet_of_face_.find(f.value());
     if (known != none) return known;
     const auto id = static_cast<std::uint32_t>(facets_.size());
     gather(f, id);
     Facet facet;
-    facet.first_side = static_cast<std::uint32_t>(sides_.size());
+    facet.first_side = static_cast<std::uint32_t>(records_.size());
     facet.single = faces_.size() == 1;
     const auto first_triangle = static_cast<std::uint32_t>(triangles_.size());
     if (facet.single) {
         std::array<Vec3, 3> corners;
         for (int i = 0; i < 3; ++i) corners[i] = scaled(mesh_.origin(HalfedgeId(3 * f.value() + i)));
         const Plane plane = plane_of(corners);
-        const std::array<Point2, 3> points{plane(corners[0]), plane(corners[1]), plane(corners[2])};
-        for (int i = 0; i < 3; ++i)
-            add_side(HalfedgeId(3 * f.value() + i), id, 0, {points[i], points[(i + 1) % 3], points[(i + 2) % 3]});
+        SideRecord record;
+        record.facet = id;
+        record.place = static_cast<std::uint32_t>(corners_.size());
+        for (const Vec3& corner : corners) corners_.push_back(plane(corner));
+        for (std::uint32_t i = 0; i < 3; ++i) add_side(HalfedgeId(3 * f.value() + i), record);
     } else {
         lay_corners();
         for (const FaceId g : faces_) add_triangle(g, id, first_triangle);
     }
-    facet.side_count = static_cast<std::uint32_t>(sides_.size()) - facet.first_side;
+    facet.side_count = static_cast<std::uint32_t>(records_.size()) - facet.first_side;
     facets_.push_back(facet);
     return id;
 }
@@ -168,44 +183,46 @@ std::uint32_t FacetLayout::corner_of(VertexId v) const {
 }
 
 void FacetLayout::add_triangle(FaceId f, std::uint32_t facet, std::uint32_t first_triangle) {
-    const auto id = static_cast<std::uint32_t>(triangles_.size());
-    FacetTriangle triangle;
-    for (std::uint32_t i = 0; i < 3; ++i) triangle.corner[i] = corner_of(mesh_.origin(HalfedgeId(3 * f.value() + i)));
+    SideRecord record;
+    record.facet = facet;
+    record.place = static_cast<std::uint32_t>(triangles_.size());
+    record.single = false;
+    FacetTriangle& triangle = triangles_.emplace_back();
     for (std::uint32_t i = 0; i < 3; ++i) {
         const HalfedgeId h(3 * f.value() + i);
-        if (marked_.is_planar(h)) {
+        triangle.corner[i] = corner_of(mesh_.origin(h));
+        triangle.is_side[i] = !marked_.is_planar(h);
+    }
+    for (std::uint32_t i = 0; i < 3; ++i) {
+        const HalfedgeId h(3 * f.value() + i);
+        if (triangle.is_side[i]) {
+            triangle.beyond[i] = static_cast<std::uint32_t>(records_.size());
+            add_side(h, record);
+        } else {
             const auto place = std::lower_bound(faces_.begin(), faces_.end(), Mesh::face(mesh_.twin(h)));
             triangle.beyond[i] = first_triangle + static_cast<std::uint32_t>(place - faces_.begin());
-        } else {
-            triangle.is_side[i] = true;
-            triangle.beyond[i] = static_cast<std::uint32_t>(sides_.size());
-            add_side(h, facet, id,
-                     {corners_[triangle.corner[i]], corners_[triangle.corner[(i + 1) % 3]],
-                      corners_[triangle.corner[(i + 2) % 3]]});
         }
     }
-    triangles_.push_back(triangle);
 }
 
-/// `points`: origin and target of h, and the corner opposite to it.
-void FacetLayout::add_side(HalfedgeId h, std::uint32_t facet, std::uint32_t triangle, std::array<Point2, 3> points) {
+void FacetLayout::add_side(HalfedgeId h, SideRecord record) {
+    const auto first = static_cast<std::uint8_t>(h.value() % 3);
+    const auto second = static_cast<std::uint8_t>((first + 1) % 3);
     const bool forward = mesh_.origin(h) < mesh_.target(h);
-    Side side;
-    side.edge = name_edge(h);
-    side.facet = facet;
-    side.triangle = triangle;
-    side.start = forward ? points[0] : points[1];
-    side.along = (forward ? points[1] : points[0]) - side.start;
-    const double inverse = 1 / dot(side.along, side.along);
-    side.x_row = inverse * side.along;
-    side.y_row = (forward ? 1.0 : -1.0) * Point2{-side.x_row.y, side.x_row.x};
-    side.corner = points[2];
-    side.apex = side.to_frame(side.corner);
-    const bool usable = std::isfinite(inverse) && std::isfinite(side.apex.x) && side.apex.y > 0;
-    Edge& edge = edges_[side.edge];
-    edge.side[forward ? 0 : 1] = static_cast<std::uint32_t>(sides_.size());
+    record.start = forward ? first : second;
+    record.end = forward ? second : first;
+    record.opposite = static_cast<std::uint8_t>((first + 2) % 3);
+    record.edge = name_edge(h);
+    const auto s = static_cast<std::uint32_t>(records_.size());
+    records_.push_back(record);
+    const Point2 along = side(s).along;
+    const double inverse = 1 / dot(along, along);
+    records_.back().inverse = inverse;
+    const Point2 apex = side(s).apex;
+    const bool usable = std::isfinite(inverse) && std::isfinite(apex.x) && apex.y > 0;
+    Edge& edge = edges_[record.edge];
+    edge.side[forward ? 0 : 1] = s;
     edge.is_usable = edge.is_usable && usable;
-    sides_.push_back(side);
 }
 
 }  // namespace delmesh

@@ -32,12 +32,11 @@ constexpr double dot(Point2 a, Point2 b) {
 /// A facet's view of one of its physical edges. The edge runs from its smaller vertex (parameter 0) to the larger one
 /// (parameter 1). In the *frame* of the side the edge is the interval [0,1] of the x axis and the facet lies above it.
 struct Side {
-    Point2 start;   ///< of the edge, in the plane of the facet
-    Point2 along;   ///< from start to end
-    Point2 x_row;   ///< the linear map into the frame
-    Point2 y_row;   ///<
-    Point2 apex;    ///< the corner opposite to the edge in its triangle, in the frame
-    Point2 corner;  ///< the same corner in the plane of the facet
+    Point2 start;  ///< of the edge, in the plane of the facet
+    Point2 along;  ///< from start to end
+    Point2 x_row;  ///< the linear map into the frame
+    Point2 y_row;  ///<
+    Point2 apex;   ///< the corner opposite to the edge in its triangle, in the frame
     std::uint32_t edge = 0;
     std::uint32_t facet = 0;
     std::uint32_t triangle = 0;  ///< the one at the edge; 0 where the facet is a single triangle
@@ -83,16 +82,24 @@ public:
     std::uint32_t edge_of(HalfedgeId h);
     /// Lays out the facets at both sides of an edge that a facet has named.
     void complete(std::uint32_t edge);
+    /// Makes room for so many more facets, most of them single triangles. Room that is not used costs no memory, but
+    /// growing step by step costs it twice.
+    void expect(std::size_t facets);
 
     [[nodiscard]] const MarkedMesh& marked() const { return marked_; }
     [[nodiscard]] std::size_t facet_count() const { return facets_.size(); }
     [[nodiscard]] std::size_t edge_count() const { return edges_.size(); }
+    [[nodiscard]] std::size_t edge_capacity() const { return edges_.capacity(); }
     [[nodiscard]] const Edge& edge(std::uint32_t e) const { return edges_[e]; }
-    [[nodiscard]] const Side& side(std::uint32_t s) const { return sides_[s]; }
+    [[nodiscard]] Side side(std::uint32_t s) const;
+    /// side(s).edge.
+    [[nodiscard]] std::uint32_t edge_at(std::uint32_t s) const { return records_[s].edge; }
+    /// side(s).facet.
+    [[nodiscard]] std::uint32_t facet_at(std::uint32_t s) const { return records_[s].facet; }
     /// Which of the two sides of edge e lies in a facet, 0 or 1; 0 if both do. Requires that one does.
     [[nodiscard]] std::size_t side_within(std::uint32_t e, std::uint32_t facet) const {
         const std::uint32_t first = edges_[e].side[0];
-        return first != none && sides_[first].facet == facet ? 0 : 1;
+        return first != none && records_[first].facet == facet ? 0 : 1;
     }
     [[nodiscard]] const Facet& facet(std::uint32_t f) const { return facets_[f]; }
     [[nodiscard]] std::size_t triangle_count() const { return triangles_.size(); }
@@ -100,10 +107,22 @@ public:
     [[nodiscard]] Point2 corner(std::uint32_t c) const { return corners_[c]; }
 
 private:
+    /// What a side is computed from: that takes no longer than to fetch all of it from memory.
+    struct SideRecord {
+        std::uint32_t edge = 0;
+        std::uint32_t facet = 0;
+        std::uint32_t place = 0;  ///< of a single triangle its first corner; else the triangle
+        std::uint8_t start = 0;   ///< 0, 1 or 2: which corner of the triangle
+        std::uint8_t end = 0;
+        std::uint8_t opposite = 0;
+        bool single = true;
+        double inverse = 0;  ///< of the squared length of the edge
+    };
+
     std::uint32_t name_edge(HalfedgeId h);
     void gather(FaceId f, std::uint32_t facet);
     void lay_corners();
-    void add_side(HalfedgeId h, std::uint32_t facet, std::uint32_t triangle, std::array<Point2, 3> points);
+    void add_side(HalfedgeId h, SideRecord record);
     void add_triangle(FaceId f, std::uint32_t facet, std::uint32_t first_triangle);
     [[nodiscard]] Vec3 scaled(VertexId v) const;
     [[nodiscard]] std::uint32_t corner_of(VertexId v) const;
@@ -115,12 +134,30 @@ private:
     IdMap facet_of_face_;
     IdMap edge_of_halfedge_;
     std::vector<Facet> facets_;
-    std::vector<Side> sides_;
+    std::vector<SideRecord> records_;
     std::vector<Edge> edges_;
     std::vector<FacetTriangle> triangles_;
     std::vector<Point2> corners_;
     std::vector<FaceId> faces_;                                      ///< of the facet that is being made, sorted
     std::vector<std::pair<VertexId, std::uint32_t>> local_corners_;  ///< the same, sorted by vertex
 };
+
+inline Side FacetLayout::side(std::uint32_t s) const {
+    const SideRecord& record = records_[s];
+    Side side;
+    side.edge = record.edge;
+    side.facet = record.facet;
+    side.triangle = record.single ? 0 : record.place;
+    const auto point = [&](std::uint8_t i) {
+        return corners_[record.single ? record.place + i : triangles_[record.place].corner[i]];
+    };
+    side.start = point(record.start);
+    side.along = point(record.end) - side.start;
+    side.x_row = record.inverse * side.along;
+    const bool forward = record.end == (record.start + 1) % 3;
+    side.y_row = (forward ? 1.0 : -1.0) * Point2{-side.x_row.y, side.x_row.x};
+    side.apex = side.to_frame(point(record.opposite));
+    return side;
+}
 
 }  // namespace delmesh

@@ -28,13 +28,21 @@ struct Trial {
 
     [[nodiscard]] bool done() const { return report.stop == StopReason::done; }
     [[nodiscard]] bool cancelled() const { return report.stop == StopReason::cancelled; }
-    [[nodiscard]] bool beats(const Trial& other) const {
-        return done() && (!other.done() || report.splits < other.report.splits);
+    [[nodiscard]] bool beats(const RemeshReport& other) const {
+        return done() && (other.stop != StopReason::done || report.splits < other.splits);
     }
 
     Mesh mesh;
     MarkedMesh marked;
     RemeshReport report;
+};
+
+/// What the shells have come to.
+struct Baseline {
+    RemeshReport report;
+    std::vector<SplitPoint> splits;
+
+    [[nodiscard]] bool done() const { return report.stop == StopReason::done; }
 };
 
 using TrialPointer = std::unique_ptr<Trial>;
@@ -63,17 +71,19 @@ public:
     TrialPointer run() {
         // Needles make shells explode; then what is found without them is all that is needed.
         const std::size_t few = 100'000 + 20 * start_.bad.size();
-        TrialPointer best = by_shells(few);
+        std::size_t most_splits = few;
+        TrialPointer best = by_shells(most_splits);
         TrialPointer without;
         if (best->report.stop == StopReason::max_vertices && best->report.splits >= few) {
-            without = better_of(std::move(best));
+            without = better_of(std::move(best), few);
             if (without->cancelled() || (without->done() && without->report.splits <= few)) return without;
-            best = by_shells(without->done() ? without->report.splits - 1 : unlimited);
+            most_splits = without->done() ? without->report.splits - 1 : unlimited;
+            best = by_shells(most_splits);
             if (!best->done() && !best->cancelled()) return without;
         }
         const std::size_t splits_by_shells = best->done() ? best->report.splits : 0;
-        if (!best->cancelled() && splits_by_shells != start_.bad.size()) best = better_of(std::move(best));
-        if (without && without->beats(*best)) best = std::move(without);
+        if (!best->cancelled() && splits_by_shells != start_.bad.size()) best = better_of(std::move(best), most_splits);
+        if (without && without->beats(best->report)) best = std::move(without);
         best->report.splits_by_shells = splits_by_shells;
         return best;
     }
@@ -93,41 +103,50 @@ private:
     }
 
     /// A handful of points that only exact arithmetic finds.
-    TrialPointer by_probes(const Trial& shells) {
+    TrialPointer by_probes(const Baseline& shells) {
         const std::size_t below = shells.done() ? shells.report.splits : unlimited;
         const std::vector<SplitPoint> plan = probe_splits(marked_, options_, start_, below, context_);
         if (plan.empty()) return nullptr;
         auto trial = std::make_unique<Trial>(marked_, report_);
         std::vector<HalfedgeId> left = carry_out(trial->marked, options_, context_, trial->report, start_, plan);
         if (trial->done()) refine_and_clean(trial->marked, options_, context_, trial->report, std::move(left));
-        return trial->beats(shells) ? std::move(trial) : nullptr;
+        return trial->beats(shells.report) ? std::move(trial) : nullptr;
     }
 
-    TrialPointer better_of(TrialPointer shells) {
-        if (TrialPointer trial = by_probes(*shells)) return trial;
+    /// The mesh of the shells is not kept meanwhile: to make it again takes less than its memory is worth.
+    TrialPointer better_of(TrialPointer by_shells_first, std::size_t most_splits) {
+        const Baseline shells{by_shells_first->report, by_shells_first->marked.take_provenance().splits};
+        by_shells_first.reset();
+        TrialPointer best = better_of(shells);
+        return best ? std::move(best) : by_shells(most_splits);
+    }
+
+    /// None if that is the baseline.
+    TrialPointer better_of(const Baseline& shells) {
+        if (TrialPointer trial = by_probes(shells)) return trial;
         const bool searches = options_.effort > 0;
         SplitChooser chooser(marked_, start_.bad, {static_cast<int>(options_.effort), options_.seed, !searches});
-        TrialPointer trial = by_search(chooser, *shells);
+        TrialPointer trial = by_search(chooser, shells);
         if (searches && misses_its_plan(*trial, chooser)) {
             // Rounding broke what was found. It may leave alone what takes less searching.
             for (const bool quick : {false, true}) {
                 if (trial->cancelled()) break;
                 SplitChooser simple(marked_, start_.bad, {0, options_.seed, quick});
-                TrialPointer other = by_search(simple, *shells);
-                if (other->cancelled() || other->beats(*trial)) trial = std::move(other);
+                TrialPointer other = by_search(simple, shells);
+                if (other->cancelled() || other->beats(trial->report)) trial = std::move(other);
             }
         }
-        if (!shells->done() || trial->cancelled()) return trial;
+        if (!shells.done() || trial->cancelled()) return trial;
         // By now it is known what the points cost in truth: regions where the shells need fewer take these.
         TrialPointer second;
         if (chooser.take_better_regions(trial->marked.splits())) second = by_plan(chooser);
         if (second && second->cancelled()) return second;
-        if (second && second->beats(*trial)) trial = std::move(second);
-        return trial->beats(*shells) ? std::move(trial) : std::move(shells);
+        if (second && second->beats(trial->report)) trial = std::move(second);
+        return trial->beats(shells.report) ? std::move(trial) : nullptr;
     }
 
-    TrialPointer by_search(SplitChooser& chooser, const Trial& shells) {
-        if (shells.done()) chooser.set_baseline(shells.marked.splits());
+    TrialPointer by_search(SplitChooser& chooser, const Baseline& shells) {
+        if (shells.done()) chooser.set_baseline(shells.splits);
         chooser.search(context_);
         return by_plan(chooser);
     }

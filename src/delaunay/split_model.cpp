@@ -88,10 +88,18 @@ void SplitModel::prepare(std::uint32_t e) {
     const std::array<std::uint32_t, 2> sides = layout_.edge(e).side;  // a copy, as the layout grows
     for (const std::uint32_t s : sides) {
         if (s == none) continue;
-        const Facet facet = layout_.facet(layout_.side(s).facet);
-        for (std::uint32_t i = 0; i < facet.side_count; ++i) make(layout_.side(facet.first_side + i).edge);
+        const Facet facet = layout_.facet(layout_.facet_at(s));
+        for (std::uint32_t i = 0; i < facet.side_count; ++i) make(layout_.edge_at(facet.first_side + i));
     }
     states_[e].prepared = true;
+}
+
+void SplitModel::expect(std::size_t edges) {
+    constexpr std::size_t facets_around = 6;
+    layout_.expect(std::min(facets_around * edges, layout_.marked().mesh().face_count()));
+    const std::size_t most = layout_.edge_capacity();
+    states_.reserve(most);
+    pool_.reserve(pool_.size() + most - layout_.edge_count());
 }
 
 std::size_t SplitModel::part_at(std::uint32_t e, double at) const {
@@ -221,16 +229,16 @@ void SplitModel::cut(std::uint32_t e, std::size_t first, std::size_t last, std::
 }
 
 void SplitModel::touch_facet(std::uint32_t e, std::uint32_t side, std::span<const double> points, bool removed) {
-    const Side& from = layout_.side(side);
+    const Side from = layout_.side(side);
     const Facet& facet = layout_.facet(from.facet);
     for (std::uint32_t s = facet.first_side; s < facet.first_side + facet.side_count; ++s)
-        if (layout_.side(s).edge != e) touch_side(e, from, s, points, removed);
+        if (layout_.edge_at(s) != e) touch_side(e, from, s, points, removed);
 }
 
 /// Brings the minima of side s up to date after the points of edge e, at side `from` of the same facet, have changed.
 void SplitModel::touch_side(std::uint32_t e, const Side& from, std::uint32_t s, std::span<const double> points,
                             bool removed) {
-    const Side& side = layout_.side(s);
+    const Side side = layout_.side(s);
     const std::uint32_t other = side.edge;
     const int k = layout_.edge(other).side[0] == s ? 0 : 1;
     const bool single = layout_.facet(side.facet).single;
@@ -276,20 +284,21 @@ void SplitModel::touch_side(std::uint32_t e, const Side& from, std::uint32_t s, 
 // --- what a part sees ---
 
 Contact SplitModel::nearest(std::uint32_t s, double a, double b) const {
-    const Side& side = layout_.side(s);
+    const Side side = layout_.side(s);
     const Facet& facet = layout_.facet(side.facet);
     if (!facet.single) return flood(s, a, b);
     ++work_;
     Contact best{cot_of(a, b, side.apex), side.apex, none};
     const std::uint32_t i = s - facet.first_side;
-    scan(side, layout_.side(facet.first_side + (i == 2 ? 0 : i + 1)), a, b, best);
-    scan(side, layout_.side(facet.first_side + (i == 0 ? 2 : i - 1)), a, b, best);
+    scan(side, facet.first_side + (i == 2 ? 0 : i + 1), a, b, best);
+    scan(side, facet.first_side + (i == 0 ? 2 : i - 1), a, b, best);
     return best;
 }
 
 /// Improves on `best` by the points of another side.
-void SplitModel::scan(const Side& side, const Side& other, double a, double b, Contact& best) const {
-    if (point_count(other.edge) == 0) return;
+void SplitModel::scan(const Side& side, std::uint32_t s, double a, double b, Contact& best) const {
+    if (point_count(layout_.edge_at(s)) == 0) return;
+    const Side other = layout_.side(s);
     const auto points = parts(other.edge).first(point_count(other.edge));
     const Point2 p = side.to_frame(other.start);
     const Point2 d = side.turn(other.along);
@@ -343,7 +352,7 @@ double SplitModel::portal_level(const Side& side, const FacetTriangle& triangle,
 /// proves that there is one that sees [a,b] (follow the shortest way back to its last bend), so looking for connected
 /// points is enough, and it respects holes and notches.
 Contact SplitModel::flood(std::uint32_t s, double a, double b) const {
-    const Side& side = layout_.side(s);
+    const Side side = layout_.side(s);
     start_visit();
     heap_.assign(1, {-infinity, side.triangle});
     Contact best{infinity, {}, none};
@@ -363,9 +372,9 @@ Contact SplitModel::flood(std::uint32_t s, double a, double b) const {
             ++work_;
             if (corner.y > flat) take({cot_of(a, b, corner), corner, none});
             if (!triangle.is_side[i]) continue;
-            const Side& other = layout_.side(triangle.beyond[i]);
+            const std::uint32_t other = triangle.beyond[i];
             Contact found{best.cot, {}, none};
-            if (other.edge != side.edge) scan(side, other, a, b, found);
+            if (layout_.edge_at(other) != side.edge) scan(side, other, a, b, found);
             if (found.edge != none) take(found);
         }
         for (std::size_t i = 0; i < 3; ++i) {
@@ -380,7 +389,7 @@ Contact SplitModel::flood(std::uint32_t s, double a, double b) const {
 }
 
 bool SplitModel::reaches(std::uint32_t s, double a, double b, double level, std::uint32_t t) const {
-    const Side& side = layout_.side(s);
+    const Side side = layout_.side(s);
     const std::uint32_t goal = layout_.side(t).triangle;
     if (layout_.facet(side.facet).single || goal == side.triangle) return true;
     start_visit();

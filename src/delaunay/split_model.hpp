@@ -40,6 +40,8 @@ public:
     std::uint32_t edge_of(HalfedgeId h) { return layout_.edge_of(h); }
     /// Makes everything known that a change of this edge's points may touch.
     void prepare(std::uint32_t e);
+    /// Makes room for preparing so many edges, see FacetLayout::expect.
+    void expect(std::size_t edges);
     /// Points may be put on this edge.
     [[nodiscard]] bool is_movable(std::uint32_t e) const { return states_[e].movable; }
     void set_movable(std::uint32_t e, bool movable) { states_[e].movable = movable; }
@@ -139,7 +141,7 @@ private:
     void replace_parts(std::uint32_t e, std::size_t first, std::size_t last, std::span<const double> points);
     void touch_facet(std::uint32_t e, std::uint32_t side, std::span<const double> points, bool removed);
     void touch_side(std::uint32_t e, const Side& from, std::uint32_t s, std::span<const double> points, bool removed);
-    void scan(const Side& side, const Side& other, double a, double b, Contact& best) const;
+    void scan(const Side& side, std::uint32_t s, double a, double b, Contact& best) const;
     [[nodiscard]] Contact flood(std::uint32_t s, double a, double b) const;
     [[nodiscard]] double portal_level(const Side& side, const FacetTriangle& triangle, std::size_t i, double a,
                                       double b) const;

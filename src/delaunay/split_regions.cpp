@@ -24,21 +24,21 @@ public:
     [[nodiscard]] std::uint32_t of(std::uint32_t e) {
         const auto& sides = layout_.edge(e).side;
         const std::uint32_t s = sides[0] != SplitModel::none ? sides[0] : sides[1];
-        return root(layout_.side(s).facet);
+        return root(layout_.facet_at(s));
     }
 
 private:
     void touch(std::uint32_t e) {
         for (const std::uint32_t s : layout_.edge(e).side)
-            if (s != SplitModel::none) touched_[layout_.side(s).facet] = true;
+            if (s != SplitModel::none) touched_[layout_.facet_at(s)] = true;
     }
 
     /// Facets that share an edge depend on each other through it, whether it is split or not.
     void join_sides(std::uint32_t e) {
         const auto& sides = layout_.edge(e).side;
         if (sides[0] == SplitModel::none || sides[1] == SplitModel::none) return;
-        const std::uint32_t a = layout_.side(sides[0]).facet;
-        const std::uint32_t b = layout_.side(sides[1]).facet;
+        const std::uint32_t a = layout_.facet_at(sides[0]);
+        const std::uint32_t b = layout_.facet_at(sides[1]);
         if (touched_[a] && touched_[b]) parent_[root(a)] = root(b);
     }
 

@@ -46,8 +46,8 @@ std::size_t SplitRepair::point_seen(std::uint32_t e, std::size_t part, int k) co
     const Part bad = model_.parts(e)[part];
     const double start = model_.part_start(e, part);
     const std::uint32_t culprit = bad.culprit[k];
-    const Side& side = layout.side(layout.edge(e).side[k]);
-    const Side& other = layout.side(layout.edge(culprit).side[layout.side_within(culprit, side.facet)]);
+    const Side side = layout.side(layout.edge(e).side[k]);
+    const Side other = layout.side(layout.edge(culprit).side[layout.side_within(culprit, side.facet)]);
     std::size_t best = 0;
     double least = std::numeric_limits<double>::infinity();
     const auto parts = model_.parts(culprit);

@@ -53,10 +53,10 @@ bool SplitRing::advance(Step& step) const {
     const FacetLayout& layout = model_.layout();
     const std::uint32_t s = layout.edge(step.rung.edge).side[step.side];
     if (s == SplitModel::none) return false;
-    const Side& from = layout.side(s);
+    const Side from = layout.side(s);
     const std::uint32_t next = across(layout.facet(from.facet), s);
     if (next == SplitModel::none) return false;
-    const Side& to = layout.side(next);
+    const Side to = layout.side(next);
     if (!model_.is_movable(to.edge)) return false;
     step.width = std::fabs(from.to_frame(to.at(0.5)).y);
     step.rung.reversed = step.rung.reversed != (dot(from.along, to.along) < 0);

@@ -123,9 +123,9 @@ void SplitSearch::gather_ball(std::uint32_t e, std::size_t size) {
         const std::array<std::uint32_t, 2> sides = model_.layout().edge(edges_[done]).side;
         for (const std::uint32_t s : sides) {
             if (s == SplitModel::none) continue;
-            const Facet facet = model_.layout().facet(model_.layout().side(s).facet);
+            const Facet facet = model_.layout().facet(model_.layout().facet_at(s));
             for (std::uint32_t i = facet.first_side; i < facet.first_side + facet.side_count; ++i) {
-                const std::uint32_t other = model_.layout().side(i).edge;
+                const std::uint32_t other = model_.layout().edge_at(i);
                 if (!model_.is_movable(other) || (model_.point_count(other) == 0 && others_on(other).empty())) continue;
                 if (reach(other)) edges_.push_back(other);
             }

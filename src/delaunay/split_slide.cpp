@@ -75,7 +75,7 @@ bool SplitSlide::add_row(std::uint32_t e, std::size_t part) {
         if (seen.edge == SplitModel::none) continue;
         model_.prepare(seen.edge);
         if (slots_.size() < model_.edge_count()) slots_.resize(model_.edge_count());
-        const std::size_t k = layout.side_within(seen.edge, layout.side(s).facet);
+        const std::size_t k = layout.side_within(seen.edge, layout.facet_at(s));
         const Point2 along = layout.side(s).turn(layout.side(layout.edge(seen.edge).side[k]).along);
         const double by_x = (2 * seen.at.x - a - b) / d;
         const double by_y = (2 - seen.cot * (b - a) / seen.at.y) / (b - a);

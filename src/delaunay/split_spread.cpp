@@ -45,7 +45,7 @@ void SplitSearch::spread(std::uint64_t work) {
 /// The point of edge `on` at a place in the frame of a side that sees it.
 double SplitSearch::point_at(const Side& side, std::uint32_t on, Point2 place) const {
     const FacetLayout& layout = model_.layout();
-    const Side& other = layout.side(layout.edge(on).side[layout.side_within(on, side.facet)]);
+    const Side other = layout.side(layout.edge(on).side[layout.side_within(on, side.facet)]);
     double least = std::numeric_limits<double>::infinity();
     double nearest = 0;
     for (const Part& part : model_.parts(on).first(model_.point_count(on))) {

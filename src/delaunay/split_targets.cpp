@@ -24,7 +24,7 @@ void SplitTargets::add_nearest(const Side& from, Point2 at) {
     Point nearest;
     double least = infinity;
     for (std::uint32_t s = facet.first_side; s < facet.first_side + facet.side_count; ++s) {
-        const Side& side = model_.layout().side(s);
+        const Side side = model_.layout().side(s);
         const std::size_t n = model_.point_count(side.edge);
         if (n == 0 || side.edge == from.edge || !model_.is_movable(side.edge)) continue;
         const auto parts = model_.parts(side.edge);
@@ -83,10 +83,10 @@ void SplitTargets::take_edges(std::uint32_t edge, std::size_t size) {
         for (const Part& part : model_.parts(e).first(model_.point_count(e))) taken_.push_back({e, part.end});
         for (const std::uint32_t s : layout.edge(e).side) {
             if (s == SplitModel::none) continue;
-            const Facet& facet = layout.facet(layout.side(s).facet);
+            const Facet& facet = layout.facet(layout.facet_at(s));
             if (facet.side_count > very_many_sides) continue;
             for (std::uint32_t i = facet.first_side; i < facet.first_side + facet.side_count; ++i) {
-                const std::uint32_t other = layout.side(i).edge;
+                const std::uint32_t other = layout.edge_at(i);
                 if (model_.point_count(other) == 0 || !model_.is_movable(other)) continue;
                 if (std::find(edges_.begin(), edges_.end(), other) == edges_.end()) edges_.push_back(other);
             }
@@ -100,7 +100,7 @@ bool SplitTargets::move_across(int& k, Point& at) {
     const FacetLayout& layout = model_.layout();
     const std::uint32_t s = layout.edge(at.edge).side[k];
     if (s == SplitModel::none) return false;
-    const Side& from = layout.side(s);
+    const Side from = layout.side(s);
     const Point2 p = from.at(at.at);
     nearby_.clear();
     add_nearest(from, p);

@@ -21,19 +21,19 @@ public:
         const Facet& facet = layout_.facet(own.facet);
         if (facet.side_count > many_sides) return;
         for (std::uint32_t s = facet.first_side; s < facet.first_side + facet.side_count; ++s)
-            if (layout_.side(s).edge != own.edge) align_with(own, layout_.side(s));
+            if (layout_.edge_at(s) != own.edge) align_with(own, layout_.side(s));
     }
 
     void continue_thread(std::uint32_t s) {
         const Contact seen = model_.nearest(s, within_.from, within_.to);
         take(seen.at.x);
         if (seen.edge == SplitModel::none) return;
-        const Side& own = layout_.side(s);
+        const Side own = layout_.side(s);
         const auto& sides = layout_.edge(seen.edge).side;
         const std::size_t k = layout_.side_within(seen.edge, own.facet);
         const std::uint32_t far = sides[1 - k];
         if (far == SplitModel::none) return;
-        const Side& near = layout_.side(sides[k]);
+        const Side near = layout_.side(sides[k]);
         const Point2 from = nearest_beyond(seen.edge, seen.along, far);
         // The frames of the two sides of an edge mirror each other.
         const Point2 up = (1 / dot(near.y_row, near.y_row)) * near.y_row;
@@ -57,8 +57,7 @@ private:
         Point2 third{};
         if (facet.single)
             for (std::uint32_t s = facet.first_side; s < facet.first_side + 3; ++s)
-                if (layout_.side(s).edge != own.edge && layout_.side(s).edge != other.edge)
-                    third = layout_.side(s).y_row;
+                if (layout_.edge_at(s) != own.edge && layout_.edge_at(s) != other.edge) third = layout_.side(s).y_row;
         const double third_inverse = 1 / dot(own.along, third);
         for (const Part& part : model_.parts(other.edge).first(n)) {
             const Point2 p = other.at(part.end) - own.start;
