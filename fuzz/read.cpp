@@ -5,6 +5,7 @@
 #include "delmesh/base/error.hpp"
 #include "io/packing.hpp"
 #include "io/scene_files.hpp"
+#include "io/wide_text.hpp"
 #include "target.hpp"
 
 #include <algorithm>
@@ -107,6 +108,11 @@ std::vector<std::string> seeds_of(std::string_view format) {
 std::vector<std::string> seeds() {
     if (!format_name.empty()) return seeds_of(format_name);
     std::vector<std::string> result;
+    for (const char* format : {"ply", "obj", "off", "stl"}) {
+        const std::string text = seeds_of(format).front();
+        for (const bool little : {true, false})
+            result.push_back(test::utf16(text + "# \xf0\x9f\x98\x80 \xc3\xa4\n", little));
+    }
     for (const char* format : {"ply", "obj", "off", "stl", "gltf"}) {
         for (const std::string& text : seeds_of(format)) {
             for (const std::string& packed :

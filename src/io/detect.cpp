@@ -70,10 +70,6 @@ bool is_obj_keyword(std::string_view word) {
     return std::ranges::find(keywords, word) != keywords.end();
 }
 
-[[noreturn]] void fail_utf16(const Input& input) {
-    input.fail("expected ASCII or UTF-8 text, found UTF-16 text: save it as UTF-8");
-}
-
 /// Latin letters as UTF-16 without a byte order mark: every second byte is zero, and no other.
 bool looks_like_utf16(std::string_view text) {
     constexpr std::size_t enough = 16;
@@ -101,7 +97,6 @@ void refuse_foreign(const Input& input, std::string_view text) {
                                                            magic.what + ", which is not read");
         }
     }
-    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) fail_utf16(input);
 }
 
 }  // namespace
@@ -126,7 +121,8 @@ std::optional<Format> detect_format(Input& input) {
     if (parse_off_keyword(word)) return Format::off;
     if (is_solid(word)) return Format::stl;
     if (is_obj_keyword(word)) return Format::obj;
-    if (looks_like_utf16(text)) fail_utf16(input);
+    if (looks_like_utf16(text))
+        input.fail("expected ASCII or UTF-8 text, found UTF-16 text without a byte order mark: save it as UTF-8");
     if (!input.remaining() && looks_like_facets(text)) return Format::stl;
     return std::nullopt;
 }

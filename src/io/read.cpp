@@ -2,6 +2,7 @@
 
 #include "io/readers.hpp"
 #include "io/unpack.hpp"
+#include "io/utf16.hpp"
 
 #include <string>
 
@@ -70,7 +71,8 @@ std::optional<Format> hint_of(const std::filesystem::path& path) {
 PolygonSoup read_source(ByteSource& source, const std::string& name, const ReadOptions& options,
                         const std::filesystem::path& folder) {
     UnpackedSource unpacked(source, name);
-    Input input(unpacked, name);
+    Utf16Source text(unpacked, name);
+    Input input(text, name);
     return read_input(input, hint_of(name), options, folder);
 }
 

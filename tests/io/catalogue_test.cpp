@@ -34,6 +34,8 @@ std::vector<Entry> catalogue() {
         std::getline(fields, faces, '\t');
         entry.points = std::stoul(points);
         entry.faces = std::stoul(faces);
+        if (entry.path == "wild/utf16-box.obj")
+            entry = {entry.path, 8, 12};  // which the catalogue's reader can not read
         entries.push_back(entry);
     }
     return entries;
@@ -45,7 +47,6 @@ const std::map<std::string, std::string> refused{
     {"wild/crash-30d6.ply", "line 7"},
     {"wild/empty-0-bytes.obj", "empty file"},
     {"wild/unparseable.stl", "line 4: expected a coordinate, found '\\x10'"},
-    {"wild/utf16-box.obj", "UTF-16"},
     {"wild/made-truncated-binary.ply",
      "expected 3 values in a list of face 72 of 80, found 0 before the end of the file"},
     {"wild/made-count-larger-than-data.stl", "found 1000, but the file holds 12"},

@@ -51,16 +51,6 @@ TEST(Read, OtherFormatsAreNamed) {
     test::expect_parse_error("7zXZ\xfd", "a.xz", "found none of them", ErrorCode::unsupported_format);
 }
 
-TEST(Read, Utf16IsNamed) {
-    std::string wide;
-    for (const char c : small_obj) wide += {c, '\0'};
-    const std::string swapped = wide.substr(1) + '\0';
-    for (const std::string& text :
-         {"\xff\xfe" + wide, "\xfe\xff" + swapped, wide, '\0' + wide.substr(0, wide.size() - 1)}) {
-        test::expect_parse_error(text, "a.obj", "found UTF-16 text: save it as UTF-8");
-    }
-}
-
 TEST(Read, MessagesStayOnOneLine) {
     test::expect_parse_error("v 1 2 \x1b[31m\n", "bad\nname.obj",
                              "bad\\x0aname.obj: line 1: expected a coordinate, found '\\x1b[31m'");
