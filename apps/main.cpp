@@ -2,6 +2,7 @@
 
 #include "commands.hpp"
 #include "delmesh/base/error.hpp"
+#include "delmesh/io/write.hpp"
 #include "exit_code.hpp"
 
 #include <fcntl.h>
@@ -12,8 +13,11 @@
 #endif
 
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <new>
 #include <stdexcept>
+#include <typeinfo>
 
 namespace delmesh::app {
 
@@ -59,6 +63,24 @@ void give_back_memory() {
 #endif
 }
 
+constexpr const char* out_of_memory = "there is not enough memory for this mesh";
+
+/// Where memory for a thread is lacking, TBB throws on another thread, and nobody can catch it.
+[[noreturn]] void end_for_want_of_memory() {
+    try {
+        if (const std::exception_ptr what = std::current_exception()) std::rethrow_exception(what);
+    } catch (const std::exception& error) {
+        const bool lacks_memory =
+            typeid(error) == typeid(std::runtime_error) || dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+        if (lacks_memory) {
+            remove_unfinished_files();
+            std::fprintf(stderr, "delmesh: %s\n", out_of_memory);
+            ::_exit(exit_input);
+        }
+    }
+    std::abort();
+}
+
 int run(const Action& action) {
     try {
         Console console(action.common);
@@ -71,9 +93,9 @@ int run(const Action& action) {
     } catch (const OutputLost& error) {
         return fail(action.common, "file_not_writable", error.what(), exit_output);
     } catch (const std::bad_alloc&) {
-        return fail(action.common, "out_of_memory", "there is not enough memory for this mesh", exit_input);
+        return fail(action.common, "out_of_memory", out_of_memory, exit_input);
     } catch (const std::length_error&) {  // a container that no memory could hold
-        return fail(action.common, "out_of_memory", "there is not enough memory for this mesh", exit_input);
+        return fail(action.common, "out_of_memory", out_of_memory, exit_input);
     }
 }
 
@@ -84,6 +106,7 @@ int main(int argc, char** argv) {
     using namespace delmesh::app;
     occupy_closed_streams();
     give_back_memory();
+    std::set_terminate(end_for_want_of_memory);
     CLI::App app("Turns any triangle mesh into a Delaunay mesh, and proves that it is one.", "delmesh");
     app.require_subcommand(1);
     app.set_version_flag("--version", DELMESH_VERSION);

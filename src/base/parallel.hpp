@@ -11,6 +11,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <new>
+#include <stdexcept>
+#include <typeinfo>
 
 namespace delmesh {
 
@@ -21,7 +24,13 @@ void run_in_arena(const Context* context, Body&& body) {
     const auto wanted = static_cast<std::size_t>(std::max(thread_count(context), tbb::info::default_concurrency()));
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, wanted);
     tbb::task_arena arena(thread_count(context) > 0 ? thread_count(context) : tbb::task_arena::automatic);
-    arena.execute(body);
+    try {
+        arena.execute(body);
+    } catch (const std::runtime_error& error) {
+        // So TBB says that a thread has no memory for its stack.
+        if (typeid(error) == typeid(std::runtime_error)) throw std::bad_alloc();
+        throw;
+    }
 }
 
 /// Calls body(begin, end) for consecutive blocks of [0, count), each `block` long but the last.

@@ -39,7 +39,7 @@ protected:
             const std::string limit = "ulimit -v " + std::to_string(1024 * mib);
             if (shell("( " + limit + "; delmesh --version ) >/dev/null 2>&1").exit_code != 0) continue;
             const test::Ran ran = shell("( " + limit + "; delmesh " + command + " --quiet )");
-            if (ran.exit_code == 0) {
+            if (ran.exit_code <= 1 && ran.exit_code >= 0) {  // 1: `check` says no
                 for (const char* name : {"out.ply", "out.stl"}) std::filesystem::remove(*this / name);
             } else {
                 failed = true;
@@ -49,7 +49,7 @@ protected:
             }
             EXPECT_EQ(files(), before_);
             if (mib == enough_mib) {
-                EXPECT_EQ(ran.exit_code, 0) << ran.err;
+                EXPECT_LE(ran.exit_code, 1) << ran.err;
             }
         }
         EXPECT_TRUE(failed) << "no limit was too small";
@@ -60,7 +60,7 @@ private:
 };
 
 TEST_F(Memory, LackingInCheckIsASentence) {
-    expect_success_or_one_sentence("check in.ply || test $? -ne 1");
+    expect_success_or_one_sentence("check in.ply");
 }
 
 TEST_F(Memory, LackingInStatsIsASentence) {
@@ -74,7 +74,7 @@ TEST_F(Memory, LackingInRepairIsASentence) {
 TEST_F(Memory, LackingInRemeshIsASentence) {
     expect_success_or_one_sentence("remesh in.ply out.ply --effort 0");
     expect_success_or_one_sentence("remesh in.obj out.stl --mode flip --threads 2");
-    expect_success_or_one_sentence("remesh in.ply out.ply --mode feature --placement shells");
+    expect_success_or_one_sentence("remesh in.ply out.ply --mode feature --placement shells --threads 8");
 }
 
 TEST_F(Memory, LackingInSimplifyIsASentence) {
