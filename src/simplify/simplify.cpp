@@ -130,10 +130,9 @@ std::size_t refit_on_the_way(Decimator& decimator, std::size_t input_vertices, s
 }
 
 /// Where nothing else helps: shakes the mesh until edges come free, more and more strongly; now and then a refit takes
-/// back what that has spoiled.
-void shake_free(Decimator& decimator, std::size_t target, const Context* context) {
+/// back what that has spoiled. Ends after `most` places tried and vertices looked at.
+void shake_free(Decimator& decimator, std::size_t target, std::size_t most, const Context* context) {
     const std::size_t patience = 200'000 + 20 * decimator.vertices();  // places tried, vertices looked at
-    constexpr std::size_t most = 30'000'000;
     constexpr double gentle = 4;
     constexpr double strong = 1e4;
     std::size_t work = 0;
@@ -261,7 +260,9 @@ SimplifyReport run(Mesh& mesh, const SimplifyOptions& options, ProgressiveMesh* 
         report.moves += run_on(decimator, target, refit, context);
         if (shakes && record == nullptr && decimator.vertices() > std::max(target, report.least_vertices)) {
             decimator.close_gaps(numbering);
-            shake_free(decimator, std::max(target, report.least_vertices), context);
+            // Nobody waits long for what can not be reached.
+            const std::size_t most = target < report.least_vertices ? 1'000'000 : 30'000'000;
+            shake_free(decimator, std::max(target, report.least_vertices), most, context);
         }
         report.levels.push_back(describe_level(decimator, target, context));
         if (refit && decimator.counts().collapses > 0) report.moves += decimator.refit(at_level, context);
