@@ -25,8 +25,7 @@ constexpr double least_width = 1e-7;
 ClusterCores::ClusterCores(BoundView& view, const CorePacking& packing, const std::vector<bool>& is_open)
     : view_(view),
       needs_(packing.needs()),
-      is_open_(is_open),
-      need_of_(packing.needs().size()) {
+      is_open_(is_open) {
     for (std::uint32_t i = 0; i < needs_.size(); ++i) need_of_.insert(needs_[i].edge, i);
     packing.for_each_core([&](std::uint32_t split, const std::vector<std::uint32_t>& blockers) {
         const auto id = static_cast<std::uint32_t>(cores_.size());
