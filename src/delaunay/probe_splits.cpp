@@ -13,9 +13,9 @@ namespace {
 
 /// More edges than these are for the search.
 constexpr std::size_t most_points = 3;
-/// In faces copied or looked at; each try costs as much as some faces more.
+/// In faces copied or looked at; each try costs as much as some thousand faces more, for its exact signs.
 constexpr double most_work = 6e6;
-constexpr double try_work = 100;
+constexpr double try_work = 4000;
 /// Meshes that allow fewer tries than these are not worth beginning with.
 constexpr double least_tries = 500;
 constexpr int finest = 60;
