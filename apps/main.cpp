@@ -12,6 +12,7 @@
 #include <malloc.h>
 #endif
 
+#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -65,6 +66,14 @@ void give_back_memory() {
 
 constexpr const char* out_of_memory = "there is not enough memory for this mesh";
 
+/// Memory may lack on several threads at once: one of them says so and ends the process, the others wait for that.
+void be_the_one_that_says_so() {
+    static std::atomic_flag said = ATOMIC_FLAG_INIT;
+    if (!said.test_and_set()) return;
+    ::sleep(5);
+    ::_exit(exit_input);
+}
+
 /// Where memory for a thread is lacking, TBB throws on another thread, and nobody can catch it.
 [[noreturn]] void end_for_want_of_memory() {
     try {
@@ -73,6 +82,7 @@ constexpr const char* out_of_memory = "there is not enough memory for this mesh"
         const bool lacks_memory =
             typeid(error) == typeid(std::runtime_error) || dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
         if (lacks_memory) {
+            be_the_one_that_says_so();
             remove_unfinished_files();
             std::fprintf(stderr, "delmesh: %s\n", out_of_memory);
             ::_exit(exit_input);
@@ -93,8 +103,10 @@ int run(const Action& action) {
     } catch (const OutputLost& error) {
         return fail(action.common, "file_not_writable", error.what(), exit_output);
     } catch (const std::bad_alloc&) {
+        be_the_one_that_says_so();
         return fail(action.common, "out_of_memory", out_of_memory, exit_input);
     } catch (const std::length_error&) {  // a container that no memory could hold
+        be_the_one_that_says_so();
         return fail(action.common, "out_of_memory", out_of_memory, exit_input);
     }
 }
