@@ -1,6 +1,6 @@
 #include "simplify/least_vertices.hpp"
 
-#include "simplify/walk.hpp"
+#include "repair/union_find.hpp"
 
 #include <vector>
 
@@ -14,24 +14,19 @@ struct Part {
 
 /// Which component each vertex with faces belongs to; returns how many there are.
 std::size_t number_components(const Mesh& mesh, std::vector<std::size_t>& component) {
-    constexpr std::size_t none = ~std::size_t{0};
-    component.assign(mesh.vertex_count(), none);
-    std::vector<VertexId> open;
+    repairing::UnionFind joined(mesh.vertex_count());
+    for (std::size_t i = 0; i < mesh.halfedge_count(); ++i) {
+        const HalfedgeId h(i);
+        // Two sides of each face join its corners.
+        if (i % 3 < 2 && mesh.origin(h).valid()) joined.unite(mesh.origin(h).value(), mesh.target(h).value());
+    }
+    component.assign(mesh.vertex_count(), 0);
     std::size_t count = 0;
-    const auto reach = [&](VertexId v) {
-        if (component[v.index()] != none) return;
-        component[v.index()] = count;
-        open.push_back(v);
-    };
     for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
-        if (!mesh.halfedge(VertexId(i)).valid() || component[i] != none) continue;
-        reach(VertexId(i));
-        while (!open.empty()) {
-            const VertexId v = open.back();
-            open.pop_back();
-            each_outgoing(mesh, v, [&](HalfedgeId h) { reach(mesh.target(h)), reach(mesh.apex(h)); });
-        }
-        ++count;
+        if (!mesh.halfedge(VertexId(i)).valid()) continue;
+        // The root of a set is its smallest number.
+        const std::size_t root = joined.find(static_cast<std::uint32_t>(i));
+        component[i] = root == i ? count++ : component[root];
     }
     return count;
 }

@@ -55,11 +55,15 @@ bool Refitter::refit_vertex(VertexId v, const RefitTuning& tuning, double allowe
     if (!place || place->cost > (1 - tuning.least_gain) * cost.steered({})) return false;
     const Vec3 w = settle_(star_.frame.to_mesh(place->point));
     if (w == mesh_.point(v) || !keeps_delaunay(mesh_, star_, w)) return false;
-    SampleError before = samples_.present();
-    before.backward = samples_.measure_backward(star_, {});
-    const SampleError after = samples_.measure(star_, star_.frame.to_local(w));
+    const Vec3 there = star_.frame.to_local(w);
+    const SampleError before = samples_.present();
+    SampleError after = samples_.measure_forward(star_, there);
     if (!(after.sum < (1 - tuning.least_gain) * before.sum)) return false;
-    if (after.worst() > std::max(before.worst(), allowed2)) return false;
+    // Looking back takes as long as looking forward, so that is done last, and for the place before where it matters.
+    after.backward = samples_.measure_backward(star_, there);
+    if (after.worst() > std::max(before.forward, allowed2) &&
+        after.worst() > std::max(before.forward, samples_.measure_backward(star_, {})))
+        return false;
     moved_(v, w);
     mesh_.set_point(v, w);
     samples_.commit(star_);

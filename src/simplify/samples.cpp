@@ -113,6 +113,11 @@ void SurfaceSamples::gather(const Star& star) {
             present_.forward = std::max<double>(present_.forward, s.distance2);
         }
     };
+    // Asks memory for all of them at once.
+    for (std::size_t i = 0; i < star.face_count(); ++i) {
+        const std::uint32_t sample = first_[star.ring[i].face.index()];
+        if (sample != none) __builtin_prefetch(samples_.data() + sample);
+    }
     for (std::size_t i = 0; i < star.face_count(); ++i) take(star.ring[i].face, i);
     for (int i = 0; i < star.dying_count; ++i) take(star.dying_face[i], 0);
 }
@@ -172,7 +177,7 @@ void SurfaceSamples::attach(Member& member, std::size_t faces, const Vec3& from_
     }
 }
 
-SampleError SurfaceSamples::measure(const Star& star, const Vec3& w) {
+SampleError SurfaceSamples::measure_forward(const Star& star, const Vec3& w) {
     prepare(star, w);
     last_ = {};
     for (Member& m : members_) {
@@ -181,8 +186,13 @@ SampleError SurfaceSamples::measure(const Star& star, const Vec3& w) {
         last_.sum += samples_[m.sample].weight * static_cast<double>(static_cast<float>(m.distance2));
         last_.forward = std::max(last_.forward, m.distance2);
     }
-    last_.backward = measure_backward(star, w);
     return last_;
+}
+
+SampleError SurfaceSamples::measure(const Star& star, const Vec3& w) {
+    SampleError error = measure_forward(star, w);
+    error.backward = measure_backward(star, w);
+    return error;
 }
 
 double SurfaceSamples::measure_backward(const Star& star, const Vec3& w) const {

@@ -49,6 +49,8 @@ public:
     [[nodiscard]] const SampleError& present() const { return present_; }
     /// Of the star with its centre at w, found afresh.
     SampleError measure(const Star& star, const Vec3& w);
+    /// The same without `backward`.
+    SampleError measure_forward(const Star& star, const Vec3& w);
     [[nodiscard]] double measure_backward(const Star& star, const Vec3& w) const;
     /// Attaches the samples in hand as the last call of `measure` found.
     void commit(const Star& star);

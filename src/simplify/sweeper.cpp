@@ -35,10 +35,10 @@ const Mesh& reordered(Mesh& mesh, Numbering& numbering, double scale) {
     return mesh;
 }
 
-/// The squared distance of p from the star with its centre at w.
-double find_distance2(const Star& star, const Vec3& w, const Vec3& p) {
+/// The squared distance of p from the star with its centre at w, or anything that is not above `enough`.
+double find_distance2(const Star& star, const Vec3& w, const Vec3& p, double enough) {
     double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < star.face_count(); ++i)
+    for (std::size_t i = 0; i < star.face_count() && least > enough; ++i)
         least =
             std::min(least, nearest_on_triangle(p, w, star.ring[i].point, star.ring[star.after(i)].point).distance2);
     return least;
@@ -159,7 +159,7 @@ Sweeper::Drift Sweeper::find_drift(const Vec3& w) const {
     Drift worst;
     for (const VertexId v : {star_.u, star_.v}) {
         for (const Vec3& p : {mesh_.point(v), far_[v.index()]}) {
-            const double distance2 = find_distance2(star_, w, star_.frame.to_local(p));
+            const double distance2 = find_distance2(star_, w, star_.frame.to_local(p), worst.distance2);
             if (distance2 > worst.distance2) worst = {distance2, p};
         }
     }
