@@ -109,7 +109,8 @@ Json run_to_json(const SimplifyArguments& arguments, const Outcome& outcome) {
     json["options"] = options_to_json(arguments.options);
     json["options"]["levels"] = arguments.options.levels;
     json["options"]["mode"] = arguments.mode;
-    json["options"]["remesh_angle_deg"] = arguments.options.remesh.feature_angle_deg;
+    json["options"]["remesh_angle_deg"] =
+        outcome.report.remesh ? outcome.report.remesh_angle_deg : arguments.options.remesh.feature_angle_deg;
     json["seconds"] = outcome.watch.seconds();
     json["peak_memory_bytes"] = peak_memory_bytes();
     return json;
@@ -230,8 +231,13 @@ void add_simplify_command(CLI::App& app, Action& action) {
         ->capture_default_str()
         ->check(CLI::IsMember({"preserve", "flip", "feature"}));
     command
-        ->add_option("--remesh-angle", arguments->options.remesh.feature_angle_deg,
-                     "Mode feature: edges that deviate from flat by more are not flipped")
+        ->add_option_function<double>(
+            "--remesh-angle",
+            [arguments](double angle) {
+                arguments->options.remesh.feature_angle_deg = angle;
+                arguments->options.wider_angle_on_noise = false;
+            },
+            "Mode feature: edges that deviate from flat by more are not flipped; default 15, large noisy inputs 30")
         ->type_name("DEG")
         ->capture_default_str()
         ->check(CLI::Range(0.0, 180.0));

@@ -22,8 +22,13 @@ namespace {
 /// Meshes so small are not worth sweeping.
 constexpr double least_far = 256;
 
+/// From so many vertices on at the finest level, time counts for more, and chance for less.
+constexpr std::size_t many = 20'000;
+
 /// What is given to the user is worth more than what is passed on the way.
-constexpr RefitTuning at_level{.rounds = 6, .least_gain = 0.002};
+RefitTuning tuning_at_level(std::size_t vertices) {
+    return {.rounds = vertices < many ? 6 : 4, .least_gain = 0.002};
+}
 
 void check_options(const SimplifyOptions& options) {
     const auto refuse = [](const std::string& why) { throw Error(ErrorCode::bad_argument, why); };
@@ -205,9 +210,38 @@ RemeshReport remesh(Mesh& mesh, const RemeshOptions& options, const Context* con
     return make_delaunay(mesh, options, context);
 }
 
+/// Whether more than a quarter of the edges are sharper than 15 degrees, where there are so many that this must be
+/// noise.
+bool is_large_and_noisy(const Mesh& mesh) {
+    constexpr std::size_t large = 100'000;
+    constexpr std::size_t looked_at = 100'000;
+    constexpr double cosine = 0.9659258262890683;
+    if (mesh.vertex_count() < large) return false;
+    const double scale = local_scale(mesh);
+    const auto normal_of = [&](HalfedgeId h) {
+        const Frame frame{scale, 1 / scale, mesh.point(mesh.origin(h))};
+        return cross(frame.to_local(mesh.point(mesh.target(h))), frame.to_local(mesh.point(mesh.apex(h))));
+    };
+    std::size_t edges = 0;
+    std::size_t sharp = 0;
+    for (std::size_t i = 0; i < mesh.halfedge_count(); i += 1 + mesh.halfedge_count() / looked_at) {
+        const HalfedgeId h(i);
+        if (mesh.is_boundary(h)) continue;
+        const Vec3 n = normal_of(h);
+        const Vec3 m = normal_of(mesh.twin(h));
+        ++edges;
+        if (dot(n, m) < cosine * std::sqrt(squared_norm(n) * squared_norm(m))) ++sharp;
+    }
+    return sharp > edges / 4;
+}
+
 bool remesh_first(Mesh& mesh, const SimplifyOptions& options, SimplifyReport& report, const Context* context) {
     if (certify(mesh, context).certified) return true;
-    report.remesh = remesh(mesh, options.remesh, context);
+    RemeshOptions how = options.remesh;
+    if (options.wider_angle_on_noise && how.mode == RemeshMode::feature && is_large_and_noisy(mesh))
+        how.feature_angle_deg = std::min(180.0, 2 * how.feature_angle_deg);
+    report.remesh_angle_deg = how.feature_angle_deg;
+    report.remesh = remesh(mesh, how, context);
     if (report.remesh->stop == StopReason::done) return true;
     report.stop = is_cancelled(context) ? SimplifyStop::cancelled : SimplifyStop::not_delaunay;
     return false;
@@ -216,7 +250,8 @@ bool remesh_first(Mesh& mesh, const SimplifyOptions& options, SimplifyReport& re
 /// While there is a long way to go: in sweeps.
 std::unique_ptr<Sweeper> sweep_first(Mesh& mesh, const Tuning& tuning, const SimplifyOptions& options,
                                      std::size_t target, Numbering& numbering, const Context* context) {
-    const double far = std::max(least_far, tuning.sweep_until * static_cast<double>(target));
+    const double until = target < many ? tuning.sweep_until : tuning.sweep_many;
+    const double far = std::max(least_far, until * static_cast<double>(target));
     if (!(static_cast<double>(mesh.vertex_count()) > far)) return nullptr;
     drop_isolated(mesh);
     auto sweeper = std::make_unique<Sweeper>(mesh, tuning, options.remesh.precision, numbering);
@@ -265,7 +300,8 @@ SimplifyReport run(Mesh& mesh, const SimplifyOptions& options, ProgressiveMesh* 
             shake_free(decimator, std::max(target, report.least_vertices), most, context);
         }
         report.levels.push_back(describe_level(decimator, target, context));
-        if (refit && decimator.counts().collapses > 0) report.moves += decimator.refit(at_level, context);
+        if (refit && decimator.counts().collapses > 0)
+            report.moves += decimator.refit(tuning_at_level(target), context);
         report.stop = report.levels.back().stop;
         const bool last = target == targets.back() || report.stop == SimplifyStop::cancelled;
         if (last) break;

@@ -227,6 +227,24 @@ TEST(Simplify, RefusesWhatMakesNoSense) {
     EXPECT_EQ(code(zero), ErrorCode::bad_argument);
 }
 
+TEST(Simplify, NoiseIsNotPreservedBySplitsUnlessAskedFor) {
+    const auto report_for = [](const Mesh& input, bool wider) {
+        Mesh mesh = input;
+        SimplifyOptions options = to_vertices(3000);
+        options.wider_angle_on_noise = wider;
+        return simplify(mesh, options);
+    };
+    const Mesh noise = sample("noisy-surface", 210'000);
+    const SimplifyReport usual = report_for(noise, true);
+    const SimplifyReport asked = report_for(noise, false);
+    ASSERT_TRUE(usual.remesh && asked.remesh);
+    EXPECT_EQ(usual.remesh_angle_deg, 30);
+    EXPECT_EQ(asked.remesh_angle_deg, 15);
+    EXPECT_LT(2 * usual.remesh->splits, asked.remesh->splits);
+    // Few edges that are sharp may be creases.
+    EXPECT_EQ(report_for(sample("noisy-surface", 20'000), true).remesh_angle_deg, 15);
+}
+
 TEST(Simplify, CancellingLeavesAValidMesh) {
     Mesh mesh = sample("icosphere", 20000);
     Context context;

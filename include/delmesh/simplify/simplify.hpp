@@ -73,6 +73,9 @@ struct SimplifyOptions {
     bool refit = true;
     /// How an input that is not Delaunay yet is made so. `remesh.precision` is also what new vertices are rounded to.
     RemeshOptions remesh = default_remesh();
+    /// On large inputs full of noise, edges sharper than `remesh.feature_angle_deg` are everywhere, and to split them
+    /// would only make the way longer: twice the angle is used there. See `SimplifyReport::remesh_angle_deg`.
+    bool wider_angle_on_noise = true;
     /// Called when a level is reached, fine to coarse, with a compact mesh that is valid during the call.
     std::function<void(const Mesh&, const LevelReport&)> on_level;
 
@@ -86,7 +89,7 @@ struct SimplifyOptions {
         return remesh;
     }
 
-    /// See option.hpp. `levels`, `remesh` and `on_level` are not among the described options.
+    /// See option.hpp. `levels`, `remesh`, `wider_angle_on_noise` and `on_level` are not among the described options.
     template <class Self, class Visitor>
     static void describe(Self& self, Visitor&& visit) {
         visit(self.placement, OptionInfo{.name = "placement", .help = "where merged vertices go"});
@@ -112,6 +115,7 @@ struct SimplifyOptions {
 struct SimplifyReport {
     /// Given if the input was not Delaunay and was remeshed first.
     std::optional<RemeshReport> remesh;
+    double remesh_angle_deg = 0;     ///< the angle of mode `feature` that it was remeshed with
     std::size_t input_vertices = 0;  ///< of the mesh as it came, isolated ones included: what `ratio` refers to
     /// No mesh with the same components, handles and boundary loops has fewer vertices. 0 if nothing was simplified.
     std::size_t least_vertices = 0;
