@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <span>
 
 namespace delmesh {
 namespace {
@@ -170,7 +171,7 @@ std::optional<Place> Placer::best(Star& star, const EdgeCost& cost) {
     const double optimum = cost.steered(goal);
     std::array<Vec3, 3> starts{cost.middle, star.u_point, star.v_point};
     std::optional<Place> found;
-    for (const Vec3& start : starts) {
+    for (const Vec3& start : std::span(starts).first(tuning_.ends ? 3 : 1)) {
         const Place place{start, cost.steered(start)};
         if (found && !(place.cost < found->cost)) continue;
         if (fits(star, start)) found = place;

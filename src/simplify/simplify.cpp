@@ -254,7 +254,9 @@ std::unique_ptr<Sweeper> sweep_first(Mesh& mesh, const Tuning& tuning, const Sim
     const double far = std::max(least_far, until * static_cast<double>(target));
     if (!(static_cast<double>(mesh.vertex_count()) > far)) return nullptr;
     drop_isolated(mesh);
-    auto sweeper = std::make_unique<Sweeper>(mesh, tuning, options.remesh.precision, numbering);
+    Tuning quick = tuning;
+    quick.ends = target < many;
+    auto sweeper = std::make_unique<Sweeper>(mesh, quick, options.remesh.precision, numbering);
     sweeper->run(static_cast<std::size_t>(far), context);
     return sweeper;
 }

@@ -141,6 +141,8 @@ void Sweeper::visit(HalfedgeId h, float limit) {
         key_[h.index()] = static_cast<float>(place->cost);
         return;
     }
+    weights_.prefetch_history(star_.u);
+    weights_.prefetch_history(star_.v);
     Vec3 w = star_.frame.to_mesh(place->point);
     if (precision_ == Precision::float32) w = round_to_float(w);
     if (!keeps_delaunay(mesh_, star_, w)) return wait(h, star_.u);
@@ -157,11 +159,13 @@ void Sweeper::visit(HalfedgeId h, float limit) {
 /// Of the ends of the edge, and of what was merged into them, the point that comes to lie farthest from the star.
 Sweeper::Drift Sweeper::find_drift(const Vec3& w) const {
     Drift worst;
+    const auto look_at = [&](const Vec3& p) {
+        const double distance2 = find_distance2(star_, w, star_.frame.to_local(p), worst.distance2);
+        if (distance2 > worst.distance2) worst = {distance2, p};
+    };
     for (const VertexId v : {star_.u, star_.v}) {
-        for (const Vec3& p : {mesh_.point(v), far_[v.index()]}) {
-            const double distance2 = find_distance2(star_, w, star_.frame.to_local(p), worst.distance2);
-            if (distance2 > worst.distance2) worst = {distance2, p};
-        }
+        look_at(mesh_.point(v));
+        if (far_[v.index()] != mesh_.point(v)) look_at(far_[v.index()]);
     }
     return worst;
 }

@@ -21,6 +21,7 @@ struct Tuning {
     double sweep_part = 0.4;  ///< ... each of which tries the cheapest so many of those that may be free
     double sweep_reach = 2.5;  ///< ... and moves no end farther off than this many times the usual (root mean square)
     double sweep_many = 1.5;   ///< as `sweep_until`, where very many vertices are asked for
+    bool ends = true;          ///< the ends of an edge are tried as places
     bool paper = false;        ///< the paper's placement, with quadrics that add up (else those of the current faces)
     bool constrained = true;   ///< false: for comparison only; the result is not Delaunay
 

@@ -22,6 +22,8 @@ public:
     [[nodiscard]] Quadric of_edge(VertexId u, VertexId v, const Vec3& to_v) const;
     /// Planes of the original faces that v stands for.
     [[nodiscard]] const Quadric& history(VertexId v) const { return history_[v.index()]; }
+    /// Asks memory for it ahead of its use.
+    void prefetch_history(VertexId v) const { __builtin_prefetch(history_.data() + v.index()); }
 
     /// What the vertex that the edge of the star is merged into stands for, w (local) as its origin.
     [[nodiscard]] Quadric merged_history(const Star& star, const Vec3& w) const;
