@@ -11,6 +11,8 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Points this near to the line of a side do not see it.
 constexpr double flat = 1e-14;
+/// A place this near to the line of a side may be one of its ends: rounding decides about the angle there.
+constexpr double on_line = 1e-12;
 /// Ties are no violations: what the model can not tell is left to the exact signs at the end.
 constexpr double tie_interior = 1e-13;
 constexpr double tie_boundary = 1e-12;
@@ -343,7 +345,11 @@ double SplitModel::portal_level(const Side& side, const FacetTriangle& triangle,
     const Point2 d = side.turn(to - from);
     const double u = std::clamp(largest_angle_on_line(a, b, p, d), 0.0, 1.0);
     const Point2 q = p + u * d;
-    if (q.y > 0) return cot_of(a, b, q);
+    if (q.y > on_line) return cot_of(a, b, q);
+    // From an end the angle on the way into the facet is the outer one of that way.
+    const Point2 inward = u < 0.5 ? d : Point2{-d.x, -d.y};
+    if (inward.y > on_line && std::fabs(q.x - a) <= on_line) return -inward.x / inward.y;
+    if (inward.y > on_line && std::fabs(q.x - b) <= on_line) return inward.x / inward.y;
     return (a - q.x) * (b - q.x) <= 0 ? -infinity : infinity;
 }
 

@@ -7,6 +7,7 @@
 #include "delaunay/refine.hpp"
 #include "delaunay/split_point.hpp"
 #include "delaunay/split_regions.hpp"
+#include "delmesh/mesh/polygon_soup.hpp"
 #include "delmesh/mesh/shapes.hpp"
 
 #include <gtest/gtest.h>
@@ -93,6 +94,44 @@ TEST_P(Model, FindsTheEdgesThatAreNotDelaunay) {
         EXPECT_EQ(bad_in_model(model), kept) << "after a rollback";
         scatter(model, random, 20);
         EXPECT_EQ(bad_in_model(model), bad_in_truth(model, start)) << "after a rollback and more";
+    }
+}
+
+/// An upright prism over a polygon with uneven corners: facets of two or more triangles whose frames are rounded.
+Mesh make_prism(Random& random) {
+    constexpr std::uint32_t n = 9;
+    PolygonSoup soup;
+    for (std::uint32_t i = 0; i < 2 * n; ++i) {
+        const double u = (i % n + 0.2 + 0.6 * random.uniform()) / n * 4 - 2;
+        const double scale = 3 / (1 + u * u);
+        if (i < n)
+            soup.points.push_back({scale * (1 - u * u), 2 * scale * u, 0});
+        else
+            soup.points.push_back({soup.points[i - n].x, soup.points[i - n].y, 7.1});
+    }
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const std::uint32_t j = (i + 1) % n;
+        for (const std::uint32_t v : {i, j, n + i, j, n + j, n + i}) soup.corners.push_back(v);
+        if (i > 1)
+            for (const std::uint32_t v : {0u, i, i - 1, n, n + i - 1, n + i}) soup.corners.push_back(v);
+    }
+    return Mesh(std::move(soup));
+}
+
+TEST(PrismModel, SeesThroughAllTrianglesOfAFacet) {
+    Random random(11);
+    for (int round = 0; round < 20; ++round) {
+        Mesh mesh = make_prism(random);
+        std::vector<Mark> marks = mark_edges(mesh, nullptr);
+        MarkedMesh marked(mesh, std::move(marks), {});
+        RemeshReport report;
+        const RefineStart start = flip_planar_edges(marked, {}, nullptr, report);
+        SplitModel model(marked);
+        prepare_all(model);
+        for (int change = 0; change < 20; ++change) {
+            scatter(model, random, 2);
+            EXPECT_EQ(bad_in_model(model), bad_in_truth(model, start));
+        }
     }
 }
 
