@@ -21,6 +21,8 @@ constexpr std::size_t short_slide = 8;
 constexpr std::size_t most_slid_at_once = 400;
 constexpr double open_share = 0.3;
 constexpr double any_move_share = 0.4;
+constexpr std::size_t few_threads = 3;
+constexpr double pair_share = 0.5;
 constexpr std::size_t memory = 512;  ///< tries after which what moves have gained counts half
 /// The search ends when it takes away less than 1/400 of the points in a stretch of work.
 constexpr std::uint64_t work_per_point = 10'000;
@@ -403,6 +405,8 @@ void SplitSearch::take(const Move& move, std::uint32_t edge) {
             return targets_.take_edges(edge, size);
         case Kind::thread:
         case Kind::slide:
+            // Threads of a strip lean to one side and the other by turns, so one alone can seldom go.
+            if (n >= few_threads && random_.chance(pair_share)) return targets_.take_threads(seed, 2 * size);
             return targets_.take_thread(seed, size);
     }
 }

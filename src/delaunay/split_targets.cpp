@@ -117,14 +117,31 @@ bool SplitTargets::move_across(int& k, Point& at) {
     return least < infinity;
 }
 
-/// A chain of points, each the nearest to the one before across a facet: in strips points vanish only all together.
-void SplitTargets::take_thread(Point seed, std::size_t size) {
-    taken_.assign(1, seed);
+/// Takes a point and those that follow it on both sides, each the nearest to the one before across a facet.
+void SplitTargets::follow(const Point& seed, std::size_t size) {
+    taken_.push_back(seed);
+    const std::size_t end = taken_.size() - 1 + size;
     for (const int direction : {0, 1}) {
         Point at = seed;
         int k = direction;
-        while (taken_.size() < size && move_across(k, at)) taken_.push_back(at);
+        while (taken_.size() < end && move_across(k, at)) taken_.push_back(at);
     }
+}
+
+void SplitTargets::take_thread(Point seed, std::size_t size) {
+    taken_.clear();
+    follow(seed, size);
+}
+
+void SplitTargets::take_threads(Point seed, std::size_t size) {
+    taken_.clear();
+    follow(seed, size / 2);
+    const auto parts = model_.parts(seed.edge);
+    const std::size_t i = model_.part_at(seed.edge, seed.at);
+    if (parts.size() <= 2) return;
+    const std::size_t next = i + 2 < parts.size() ? i + 1 : i - 1;
+    const Point second{seed.edge, parts[next].end};
+    if (!is_taken(second)) follow(second, size / 2);
 }
 
 void SplitTargets::remove() {

@@ -26,6 +26,9 @@ public:
     /// A chain of points, each the nearest to the one before across a facet: in strips points vanish only all together.
     void take_thread(Point seed, std::size_t size);
 
+    /// Two such chains, side by side.
+    void take_threads(Point seed, std::size_t size);
+
     [[nodiscard]] std::size_t size() const { return taken_.size(); }
     /// Takes them off the model.
     void remove();
@@ -35,6 +38,7 @@ private:
     void add_nearest(const Side& from, Point2 at);
     void add_neighbours(const Point& of);
     bool move_across(int& k, Point& at);
+    void follow(const Point& seed, std::size_t size);
 
     SplitModel& model_;
     Random& random_;
