@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace delmesh {
 namespace {
@@ -30,6 +31,11 @@ constexpr int polish_rounds = 2;
 constexpr double spread_share = 0.2;
 /// The share of the work in which an edge must be closed; else the rest is closed by borrowing.
 constexpr double patience = 0.25;
+/// With no more edges than these, and at least this many times as many points, the search starts more than once.
+constexpr std::size_t few_edges = 200;
+constexpr std::size_t hard = 2;
+constexpr int most_starts = 2;
+constexpr double start_share = 0.6;  ///< of the work, for each start
 /// More for the search where no edge stayed open for long.
 constexpr double spare_share = 0.75;
 
@@ -87,16 +93,12 @@ double SplitChooser::full_work() const {
 
 void SplitChooser::search(const Context* context) {
     const double full = full_work();
-    search_.construct(bad_, static_cast<std::uint64_t>(full));
     const bool in_blocks = bad_.size() >= many_edges;
-    if (options_.effort > 0) in_blocks ? improve_blocks_once(false, context) : wait_for_open_edges(full, context);
-    if (is_cancelled(context)) return;
-    search_.close_rings(static_cast<std::uint64_t>(std::min(full, 0.1 * default_work())));
-    search_.close_open(static_cast<std::uint64_t>(full));
-    const double left = (1 + spare_share) * full - static_cast<double>(model_.work());
-    if (options_.effort > 0)
-        in_blocks ? improve_blocks(context)
-                  : search_.improve(static_cast<std::uint64_t>(std::max(full, left)), context);
+    if (options_.effort > 0 && bad_.size() <= few_edges) {
+        find_best_places(full, context);
+    } else {
+        find_places(full, context);
+    }
     if (is_cancelled(context)) return;
     if (options_.effort > 0) {
         search_.thin_rings(static_cast<std::uint64_t>(0.1 * full));
@@ -105,6 +107,51 @@ void SplitChooser::search(const Context* context) {
     if (baseline_.empty()) return;
     delmesh::take_better_regions(model_, search_.open(), placed_points(model_), baseline_);
     is_compared_ = true;
+}
+
+void SplitChooser::find_places(double full, const Context* context) {
+    const std::uint64_t before = model_.work();
+    search_.construct(bad_, static_cast<std::uint64_t>(full));
+    const bool in_blocks = bad_.size() >= many_edges;
+    if (options_.effort > 0) in_blocks ? improve_blocks_once(false, context) : wait_for_open_edges(full, context);
+    if (is_cancelled(context)) return;
+    search_.close_rings(static_cast<std::uint64_t>(std::min(full, 0.1 * default_work())));
+    search_.close_open(static_cast<std::uint64_t>(full));
+    const double left = (1 + spare_share) * full - static_cast<double>(model_.work() - before);
+    if (options_.effort > 0)
+        in_blocks ? improve_blocks(context)
+                  : search_.improve(static_cast<std::uint64_t>(std::max(full, left)), context);
+}
+
+/// Where few edges need many points, much depends on luck: it is tried more than once.
+void SplitChooser::find_best_places(double full, const Context* context) {
+    find_places(start_share * full, context);
+    for (int i = 1; i < most_starts && !is_cancelled(context); ++i) {
+        if (model_.point_count() < hard * bad_.size()) break;
+        const std::vector<PlacedPoint> points = placed_points(model_);
+        const std::vector<std::uint32_t> open = search_.open();
+        put({}, {});
+        find_places(start_share * full, context);
+        const auto worth = [](std::size_t open_edges, std::size_t count) { return std::pair(open_edges, count); };
+        if (worth(open.size(), points.size()) < worth(search_.open().size(), model_.point_count())) put(points, open);
+    }
+    if (!is_cancelled(context)) search_.improve(static_cast<std::uint64_t>((1 - start_share) * full), context);
+}
+
+/// Replaces all points, and all edges that are known not to be Delaunay.
+void SplitChooser::put(std::span<const PlacedPoint> points, const std::vector<std::uint32_t>& open) {
+    for (const std::uint32_t e : search_.open()) model_.give_up(e, false);
+    for (std::uint32_t e = 0; e < model_.edge_count(); ++e)
+        if (model_.point_count(e) > 0) model_.cut(e, 0, model_.point_count(e), {});
+    std::vector<double> places;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        places.push_back(points[i].at);
+        if (i + 1 < points.size() && points[i + 1].edge == points[i].edge) continue;
+        model_.cut(points[i].edge, 0, 0, places);
+        places.clear();
+    }
+    while (model_.suspect_count() > 0) model_.drop_suspect(model_.suspect_count() - 1);
+    search_.set_open(open);
 }
 
 /// For large angles. Does not need the work it may do.

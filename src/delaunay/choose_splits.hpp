@@ -44,6 +44,9 @@ public:
 private:
     [[nodiscard]] double default_work() const;
     [[nodiscard]] double full_work() const;
+    void find_places(double full, const Context* context);
+    void find_best_places(double full, const Context* context);
+    void put(std::span<const PlacedPoint> points, const std::vector<std::uint32_t>& open);
     void spread(double work, bool in_blocks, const Context* context);
     void improve_blocks_once(bool polish, const Context* context);
     void improve_blocks(const Context* context);
