@@ -2,6 +2,7 @@
 
 #include "delmesh/mesh/edits.hpp"
 #include "delmesh/mesh/rounding.hpp"
+#include "simplify/polish.hpp"
 #include "simplify/walk.hpp"
 
 #include <algorithm>
@@ -44,6 +45,7 @@ Decimator::Decimator(Mesh& mesh, const Tuning& tuning, const DecimatorLimits& li
 }
 
 void Decimator::enqueue_all() {
+    is_outdated_ = false;
     queue_.reset(mesh_.halfedge_count());
     parked_.clear();
     raised2_ = 0;
@@ -69,10 +71,21 @@ void Decimator::move_history(VertexId v, const Vec3& to) {
 }
 
 /// Any vertex may have moved.
-void Decimator::start_afresh() {
+void Decimator::refresh_weights() {
     for (std::size_t v = 0; v < mesh_.vertex_count(); ++v)
         if (mesh_.halfedge(VertexId(v)).valid()) weights_.refresh(VertexId(v));
-    enqueue_all();
+}
+
+void Decimator::start_afresh() {
+    refresh_weights();
+    leave_queue();
+}
+
+/// Nothing waits for anything any more: the next run asks for all keys afresh.
+void Decimator::leave_queue() {
+    is_outdated_ = true;
+    raised2_ = 0;
+    blocked_.assign(mesh_.halfedge_count(), Blocker::none);
 }
 
 std::size_t Decimator::refit(const RefitTuning& tuning, const Context* context) {
@@ -89,12 +102,78 @@ void Decimator::close_gaps(Numbering& numbering) {
         if (mesh_.is_live(VertexId(v)) && !mesh_.halfedge(VertexId(v)).valid()) remove_isolated(mesh_, VertexId(v));
     const CompactMap map = in_present_order(mesh_);
     numbering.renumber(mesh_, map);
+    follow(map);
+}
+
+/// The mesh has been renumbered.
+void Decimator::follow(const CompactMap& map) {
     weights_.renumber(map.vertex);
     if (samples_) samples_->renumber(map.face, mesh_.face_count());
-    blocked_.resize(mesh_.halfedge_count());
     stamp_.resize(mesh_.halfedge_count());
     watches_ = Watchlists<Watch>(mesh_.vertex_count());
-    enqueue_all();
+    leave_queue();
+}
+
+namespace {
+
+/// Around what a change has left.
+constexpr RefitTuning nearby{.rounds = 3, .least_gain = 0.002};
+
+/// Ids for the living ones: the same below `count`; those beyond get the ids of dead ones.
+template <class Id>
+std::vector<Id> fill_gaps(const Mesh& mesh, std::size_t all, std::size_t count) {
+    std::vector<Id> ids(all);
+    std::size_t gap = 0;
+    for (std::size_t i = 0; i < all; ++i) {
+        if (!mesh.is_live(Id(i))) continue;
+        if (i >= count)
+            while (mesh.is_live(Id(gap))) ++gap;
+        ids[i] = Id(i < count ? i : gap++);
+    }
+    return ids;
+}
+
+}  // namespace
+
+void Decimator::reduce(std::size_t vertices, const Context* context) {
+    const auto settle = [this](const Vec3& w) { return settled(w); };
+    const auto moved = [this](VertexId v, const Vec3& w) { move_history(v, w); };
+    Polisher polisher(mesh_, *samples_, placer_, weights_, tuning_, scale_, settle);
+    Refitter refitter(mesh_, *samples_, placer_, scale_, settle, moved);
+    while (vertices_ > vertices && !is_cancelled(context)) {
+        const std::size_t wanted = std::min(vertices_ - vertices, vertices / 25 + 1);
+        const std::size_t done = polisher.reduce(wanted, allowed2(), context);
+        vertices_ -= done;
+        counts_.collapses += done;
+        (void)refitter.run(nearby, allowed2(), polisher.changed(), context);
+        refresh_weights();
+        if (done <= wanted / 2) break;
+    }
+    worst_error_ = std::max(worst_error_, std::sqrt(polisher.worst_error2()) / scale_);
+    leave_queue();
+}
+
+std::size_t Decimator::polish(const Context* context) {
+    const std::size_t vertices = mesh_.vertex_count();
+    const std::size_t faces = mesh_.face_count();
+    const auto settle = [this](const Vec3& w) { return settled(w); };
+    const auto moved = [this](VertexId v, const Vec3& w) { move_history(v, w); };
+    Polisher polisher(mesh_, *samples_, placer_, weights_, tuning_, scale_, settle);
+    Refitter refitter(mesh_, *samples_, placer_, scale_, settle, moved);
+    std::size_t moves = 0;
+    for (int round = 0; round < tuning_.polish_rounds && !is_cancelled(context); ++round) {
+        const double before = samples_->mean2();
+        moves += polisher.exchange(tuning_.polish_most, allowed2(), context);
+        moves += refitter.run(nearby, allowed2(), polisher.changed(), context);
+        refresh_weights();
+        if (!(samples_->mean2() < (1 - tuning_.polish_gain) * before)) break;
+    }
+    worst_error_ = std::max(worst_error_, std::sqrt(polisher.worst_error2()) / scale_);
+    const CompactMap map{fill_gaps<VertexId>(mesh_, mesh_.vertex_count(), vertices),
+                         fill_gaps<FaceId>(mesh_, mesh_.face_count(), faces)};
+    renumber(mesh_, map);
+    follow(map);
+    return moves;
 }
 
 void Decimator::loosen(std::uint64_t seed, double freedom) {
@@ -191,6 +270,7 @@ bool Decimator::retry() {
 
 void Decimator::run(std::size_t vertices, const Context* context) {
     const std::size_t start = vertices_;
+    if (is_outdated_ && vertices_ > vertices) enqueue_all();
     while (vertices_ > vertices) {
         if (samples_) release_parked();
         if (queue_.empty() && !retry()) return;

@@ -52,6 +52,12 @@ public:
     void guard_for(std::size_t vertices);
     /// Moves vertices towards the samples that are followed; returns how many moves it took.
     std::size_t refit(const RefitTuning& tuning, const Context* context = nullptr);
+    /// As `run`, but cares for the samples only, and flips what a collapse leaves that is not Delaunay; stops early
+    /// where little goes: see `Polisher`. Not while steps are recorded, as the next one.
+    void reduce(std::size_t vertices, const Context* context = nullptr);
+    /// Spends the vertices of a level better: see `Polisher`. There must be no dead elements. Vertices that go leave
+    /// their ids to those that come. Returns how many vertices went or moved.
+    std::size_t polish(const Context* context = nullptr);
     /// Renumbers the mesh so that there are no dead elements any more. Not while steps are recorded.
     void close_gaps(Numbering& numbering);
     /// From here on looks harder for places, and changes the mesh where edges are blocked, so that they have another
@@ -92,8 +98,11 @@ private:
     void enqueue(HalfedgeId h);
     void forget(HalfedgeId h);
     [[nodiscard]] Watch wait(HalfedgeId h, Blocker why);
+    void follow(const CompactMap& map);
+    void refresh_weights();
     void move_history(VertexId v, const Vec3& to);
     void start_afresh();
+    void leave_queue();
     void watch_ring(const Watch& watch);
     void block(HalfedgeId h, Blocker why);
     [[nodiscard]] double allowed2() const;
@@ -121,6 +130,7 @@ private:
     std::vector<Watch> woken_;
     std::vector<Parked> parked_;  ///< a heap, the smallest distance first
     Queue queue_;
+    bool is_outdated_ = false;  ///< the queue
     std::optional<SurfaceSamples> samples_;
     std::size_t guarded_ = 0;
     std::size_t retried_ = 0;  ///< collapses made when all edges had another turn

@@ -37,7 +37,6 @@ public:
 private:
     bool flip_edge(HalfedgeId h, double allowed2);
     bool move_vertex(VertexId v, double allowed2);
-    void gather_flipped(HalfedgeId h);
     [[nodiscard]] Vec3 draw_place();
     [[nodiscard]] double draw();
 

@@ -1,6 +1,6 @@
 #include "simplify/refit.hpp"
 
-#include "simplify/triangle_point.hpp"
+#include "simplify/sample_fit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -24,33 +24,12 @@ Refitter::Refitter(Mesh& mesh, SurfaceSamples& samples, Placer& placer, double s
       settle_(std::move(settle)),
       moved_(std::move(moved)) {}
 
-/// The squared distances of the samples in hand, as far as they depend on the place of the centre, to first order.
-bool Refitter::build_cost(const RefitTuning& tuning, EdgeCost& cost) const {
-    cost = {};
-    for (const SurfaceSamples::Member& m : samples_.members()) {
-        const Vec3& b = star_.ring[m.face].point;
-        const Vec3& c = star_.ring[star_.after(m.face)].point;
-        const Vec3& normal = star_.ring[m.face].old_normal;
-        const double n2 = squared_norm(normal);
-        if (!(n2 > 0)) continue;
-        const TrianglePoint p = nearest_on_triangle(m.point, {}, b, c);
-        const Vec3 on_face = b * p.weights[1] + c * p.weights[2];
-        const double own = p.weights[0];
-        if (!(own > 0)) continue;
-        // The plane own * n.(x) = n.(point - on_face) for a unit n.
-        cost.steered.add_plane(normal, dot(normal, m.point - on_face) / own, samples_.weight(m) * own * own / n2);
-    }
-    cost.trace = cost.steered.trace();
-    if (!(cost.trace > 0)) return false;
-    cost.steered.add_point({}, tuning.regular * cost.trace);
-    return true;
-}
-
 bool Refitter::refit_vertex(VertexId v, const RefitTuning& tuning, double allowed2) {
     gather(mesh_, v, scale_, star_);
     samples_.gather(star_);
     EdgeCost cost;
-    if (!(samples_.present().forward > negligible2) || !build_cost(tuning, cost)) return false;
+    if (!(samples_.present().forward > negligible2) || !fit_to_samples(star_, samples_, {}, tuning.regular, cost))
+        return false;
     const auto place = placer_.improve(star_, cost, Vec3{});
     if (!place || place->cost > (1 - tuning.least_gain) * cost.steered({})) return false;
     const Vec3 w = settle_(star_.frame.to_mesh(place->point));
@@ -71,9 +50,13 @@ bool Refitter::refit_vertex(VertexId v, const RefitTuning& tuning, double allowe
 }
 
 std::size_t Refitter::run(const RefitTuning& tuning, double allowed2, const Context* context) {
+    return run(tuning, allowed2, std::vector<bool>(mesh_.vertex_count(), true), context);
+}
+
+std::size_t Refitter::run(const RefitTuning& tuning, double allowed2, std::vector<bool> changed,
+                          const Context* context) {
     std::size_t moves = 0;
     // What failed fails again as long as nothing around it has moved.
-    std::vector<bool> changed(mesh_.vertex_count(), true);
     for (int round = 0; round < tuning.rounds && !is_cancelled(context); ++round) {
         for (std::size_t v = 0; v < mesh_.vertex_count(); ++v) {
             const VertexId id(v);

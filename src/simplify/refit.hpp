@@ -8,12 +8,13 @@
 #include "simplify/star.hpp"
 
 #include <functional>
+#include <vector>
 
 namespace delmesh {
 
 struct RefitTuning {
     int rounds = 3;
-    double regular = 1e-3;     ///< pull to the place before, relative to the trace
+    double regular = 1e-4;     ///< pull to the place before, relative to the trace
     double least_gain = 0.01;  ///< a move must lower the error by this part
 };
 
@@ -26,10 +27,11 @@ public:
     /// A move never enlarges the largest error around beyond `allowed2` (squared, local unit), nor beyond what it was.
     /// Returns the number of moves.
     std::size_t run(const RefitTuning& tuning, double allowed2, const Context* context);
+    /// Only vertices that are named, and from there on what the moves affect.
+    std::size_t run(const RefitTuning& tuning, double allowed2, std::vector<bool> changed, const Context* context);
 
 private:
     bool refit_vertex(VertexId v, const RefitTuning& tuning, double allowed2);
-    [[nodiscard]] bool build_cost(const RefitTuning& tuning, EdgeCost& cost) const;
 
     Mesh& mesh_;
     SurfaceSamples& samples_;

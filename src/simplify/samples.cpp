@@ -122,6 +122,76 @@ void SurfaceSamples::gather(const Star& star) {
     for (int i = 0; i < star.dying_count; ++i) take(star.dying_face[i], 0);
 }
 
+void SurfaceSamples::gather(std::span<const FaceId> faces, std::vector<Place>& places) const {
+    places.clear();
+    for (const FaceId f : faces)
+        for (std::uint32_t i = first_[f.index()]; i != none; i = samples_[i].next)
+            places.push_back({i, f, samples_[i].distance2});
+}
+
+SampleError SurfaceSamples::find_places(const Mesh& mesh, double scale, std::span<const FaceId> faces, double most,
+                                        std::vector<Place>& places) {
+    const Frame frame{scale, 1 / scale, mesh.point(mesh.origin(Mesh::halfedge(faces[0])))};
+    triangles_.clear();
+    for (const FaceId f : faces) {
+        const HalfedgeId h = Mesh::halfedge(f);
+        const Vec3 a = frame.to_local(mesh.point(mesh.origin(h))), b = frame.to_local(mesh.point(mesh.target(h))),
+                   c = frame.to_local(mesh.point(mesh.apex(h)));
+        const Vec3 middle = (a + b + c) * (1.0 / 3);
+        const double radius2 = std::max({squared_norm(a - middle), squared_norm(b - middle), squared_norm(c - middle)});
+        triangles_.push_back({{a, b, c}, middle, std::sqrt(radius2) * (1 + 1e-9)});
+    }
+    SampleError error;
+    std::size_t nearest = 0;
+    for (Place& place : places) {
+        const Sample& s = samples_[place.sample];
+        const Vec3 x = frame.to_local(s.point);
+        // Neighbours in the list lie close by, so the last one's face is a good guess.
+        const auto distance2_to = [&](const Triangle& t) {
+            return nearest_on_triangle(x, t.corners[0], t.corners[1], t.corners[2]).distance2;
+        };
+        double best = distance2_to(triangles_[nearest]);
+        double reach = std::sqrt(best);
+        for (std::size_t i = 0, guess = nearest; i < triangles_.size(); ++i) {
+            const double far = reach + triangles_[i].radius;
+            if (i == guess || squared_norm(x - triangles_[i].middle) > far * far) continue;
+            const double distance2 = distance2_to(triangles_[i]);
+            if (!(distance2 < best)) continue;
+            best = distance2;
+            reach = std::sqrt(best);
+            nearest = i;
+        }
+        place.face = faces[nearest];
+        place.distance2 = static_cast<float>(best);
+        error.sum += static_cast<double>(s.weight) * static_cast<double>(place.distance2);
+        error.forward = std::max<double>(error.forward, place.distance2);
+        if (error.sum > most) break;
+    }
+    return error;
+}
+
+void SurfaceSamples::put(std::span<const FaceId> faces, std::span<const Place> places) {
+    for (const FaceId f : faces) {
+        for (std::uint32_t i = first_[f.index()]; i != none; i = samples_[i].next)
+            sum_ -= static_cast<double>(samples_[i].weight) * samples_[i].distance2;
+        first_[f.index()] = none;
+    }
+    for (const Place& place : places) {
+        Sample& s = samples_[place.sample];
+        s.distance2 = place.distance2;
+        sum_ += static_cast<double>(s.weight) * s.distance2;
+        s.next = first_[place.face.index()];
+        first_[place.face.index()] = place.sample;
+    }
+}
+
+double SurfaceSamples::error(FaceId f) const {
+    double sum = 0;
+    for (std::uint32_t i = first_[f.index()]; i != none; i = samples_[i].next)
+        sum += static_cast<double>(samples_[i].weight) * samples_[i].distance2;
+    return sum;
+}
+
 void SurfaceSamples::prepare(const Star& star, const Vec3& w) {
     const std::size_t size = star.ring.size();
     spokes_.resize(size);

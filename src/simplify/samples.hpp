@@ -43,6 +43,8 @@ public:
 
     /// Takes the samples of the star in hand.
     void gather(const Star& star);
+    /// The mesh has so many faces now. New ones have no samples yet.
+    void set_faces(std::size_t faces) { first_.resize(faces, none); }
     [[nodiscard]] std::span<const Member> members() const { return members_; }
     [[nodiscard]] double weight(const Member& m) const { return samples_[m.sample].weight; }
     /// Of the star as it is now; `backward` is left out.
@@ -54,6 +56,26 @@ public:
     [[nodiscard]] double measure_backward(const Star& star, const Vec3& w) const;
     /// Attaches the samples in hand as the last call of `measure` found.
     void commit(const Star& star);
+
+    /// A sample, where it was and how far from the surface.
+    struct Place {
+        std::uint32_t sample = 0;
+        FaceId face;
+        float distance2 = 0;
+    };
+    /// Takes in hand the samples of these faces, each named once, that have been replaced by others.
+    void gather(std::span<const FaceId> faces, std::vector<Place>& places) const;
+    /// Finds the nearest of the faces for each of the samples, whose places are changed. Stops where the sum would
+    /// exceed `most`.
+    SampleError find_places(const Mesh& mesh, double scale, std::span<const FaceId> faces, double most,
+                            std::vector<Place>& places);
+    /// All samples of these faces now are there.
+    void put(std::span<const FaceId> faces, std::span<const Place> places);
+    [[nodiscard]] const Vec3& point(const Place& place) const { return samples_[place.sample].point; }
+    [[nodiscard]] double weight(const Place& place) const { return samples_[place.sample].weight; }
+    /// Of the samples of a face, times their weights.
+    [[nodiscard]] double error(FaceId f) const;
+    [[nodiscard]] double sum() const { return sum_; }
 
     /// The mean squared distance of all samples.
     [[nodiscard]] double mean2() const { return weight_ > 0 && sum_ > 0 ? sum_ / weight_ : 0; }
@@ -87,6 +109,12 @@ private:
     std::vector<std::uint32_t> first_;  ///< per face
     std::vector<Member> members_;
     std::vector<Spoke> spokes_;
+    struct Triangle {
+        std::array<Vec3, 3> corners;
+        Vec3 middle;
+        double radius = 0;
+    };
+    std::vector<Triangle> triangles_;
     SampleError present_, last_;
 };
 

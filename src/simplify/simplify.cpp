@@ -29,6 +29,7 @@ constexpr std::size_t many = 20'000;
 RefitTuning tuning_at_level(std::size_t vertices) {
     return {.rounds = vertices < many ? 6 : 4, .least_gain = 0.002};
 }
+constexpr RefitTuning before_polish{.rounds = 2, .least_gain = 0.002};
 
 void check_options(const SimplifyOptions& options) {
     const auto refuse = [](const std::string& why) { throw Error(ErrorCode::bad_argument, why); };
@@ -132,6 +133,12 @@ std::size_t refit_on_the_way(Decimator& decimator, std::size_t input_vertices, s
         moves += decimator.refit({.rounds = 1}, context);
     }
     return moves;
+}
+
+/// Where the care for single vertices begins.
+std::size_t reduce_from(std::size_t target, const Tuning& tuning) {
+    const auto more = static_cast<std::size_t>((tuning.reduce_from - 1) * static_cast<double>(target));
+    return target + std::min(more, tuning.reduce_most);
 }
 
 /// Where nothing else helps: shakes the mesh until edges come free, more and more strongly; now and then a refit takes
@@ -261,6 +268,39 @@ std::unique_ptr<Sweeper> sweep_first(Mesh& mesh, const Tuning& tuning, const Sim
     return sweeper;
 }
 
+/// What may be done on the way. Steps that are recorded know no flips, so neither the first nor the last then.
+struct Way {
+    bool shakes = false, refits = false, polishes = false;
+};
+
+/// Down to so many vertices, if it can be, and makes the best of them.
+void reach(Decimator& decimator, std::size_t target, const Way& way, const Tuning& tuning, Numbering& numbering,
+           SimplifyReport& report, const Context* context) {
+    const bool polish = way.polishes && target <= tuning.polish_below;
+    decimator.guard_for(target);
+    if (way.refits) report.moves += refit_on_the_way(decimator, report.input_vertices, target, context);
+    if (polish) {
+        report.moves += run_on(decimator, reduce_from(target, tuning), way.refits, context);
+        decimator.reduce(target, context);
+    }
+    report.moves += run_on(decimator, target, way.refits, context);
+    if (way.shakes && decimator.vertices() > std::max(target, report.least_vertices)) {
+        decimator.close_gaps(numbering);
+        // Nobody waits long for what can not be reached.
+        const std::size_t most = target < report.least_vertices ? 1'000'000 : 30'000'000;
+        shake_free(decimator, std::max(target, report.least_vertices), most, context);
+    }
+    report.levels.push_back(describe_level(decimator, target, context));
+    if (!way.refits || decimator.counts().collapses == 0) return;
+    if (polish) {
+        report.moves += decimator.refit(before_polish, context);
+        decimator.close_gaps(numbering);
+        report.moves += decimator.polish(context);
+        report.levels.back().quadric_error = decimator.worst_error();
+    }
+    report.moves += decimator.refit(tuning_at_level(target), context);
+}
+
 SimplifyReport run(Mesh& mesh, const SimplifyOptions& options, ProgressiveMesh* record, const Context* context) {
     check_options(options);
     Recorder recorder;
@@ -291,19 +331,9 @@ SimplifyReport run(Mesh& mesh, const SimplifyOptions& options, ProgressiveMesh* 
         report.moves = decimator.refit({.rounds = 1}, context);
         sweeper.reset();
     }
+    const Way way{.shakes = shakes && record == nullptr, .refits = refit, .polishes = refit && record == nullptr};
     for (const std::size_t target : targets) {
-        decimator.guard_for(target);
-        if (refit) report.moves += refit_on_the_way(decimator, report.input_vertices, target, context);
-        report.moves += run_on(decimator, target, refit, context);
-        if (shakes && record == nullptr && decimator.vertices() > std::max(target, report.least_vertices)) {
-            decimator.close_gaps(numbering);
-            // Nobody waits long for what can not be reached.
-            const std::size_t most = target < report.least_vertices ? 1'000'000 : 30'000'000;
-            shake_free(decimator, std::max(target, report.least_vertices), most, context);
-        }
-        report.levels.push_back(describe_level(decimator, target, context));
-        if (refit && decimator.counts().collapses > 0)
-            report.moves += decimator.refit(tuning_at_level(target), context);
+        reach(decimator, target, way, tuning, numbering, report, context);
         report.stop = report.levels.back().stop;
         const bool last = target == targets.back() || report.stop == SimplifyStop::cancelled;
         if (last) break;

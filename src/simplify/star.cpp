@@ -213,6 +213,12 @@ Blocker find_blocker(const Mesh& mesh, Star& star, const Vec3& w, std::size_t& f
     return Blocker::none;
 }
 
+bool turns_over(const Star& star, const Vec3& w) {
+    for (std::size_t i = 0; i < star.face_count(); ++i)
+        if (face_angles(star.ring[i], star.ring[i].point - w, star.ring[star.after(i)].point - w).turned) return true;
+    return false;
+}
+
 bool keeps_delaunay(const Mesh& mesh, const Star& star, const Vec3& w) {
     const std::size_t faces = star.face_count();
     const std::size_t size = star.ring.size();

@@ -67,6 +67,9 @@ void find_outers(const Mesh& mesh, Star& star);
 /// offending one. Within rounding, `none` is only a proposal: `keeps_delaunay` decides.
 [[nodiscard]] Blocker find_blocker(const Mesh& mesh, Star& star, const Vec3& w, std::size_t& first);
 
+/// True if a face of the star turns over when its centre goes to w (local).
+[[nodiscard]] bool turns_over(const Star& star, const Vec3& w);
+
 /// Exact; requires `find_outers`: every edge at w and every ring edge is Delaunay with w at the given point of the
 /// mesh's space.
 [[nodiscard]] bool keeps_delaunay(const Mesh& mesh, const Star& star, const Vec3& w);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 namespace delmesh {
 
 /// The weights and limits of the decimator, found by measurement (docs/simplify.md).
@@ -13,7 +15,7 @@ struct Tuning {
     int bisections = 4;
     int sqp_steps = 1;
     double slack = 1.5;       ///< an edge is collapsed at once if it costs at most this times the next key
-    double samples = 60000;   ///< so many samples of the original are followed ...
+    double samples = 30000;   ///< so many samples of the original are followed ...
     double density = 12;      ///< ... and so many more for each vertex of the finest level, as far as there are
     double reach = 4.5;       ///< no sample gets farther away than this many times the root of the mean square
     double guard = 3;         ///< ... once fewer than this many times the vertices asked for are left
@@ -22,8 +24,14 @@ struct Tuning {
     double sweep_reach = 2.5;  ///< ... and moves no end farther off than this many times the usual (root mean square)
     double sweep_many = 1.5;   ///< as `sweep_until`, where very many vertices are asked for
     bool ends = true;          ///< the ends of an edge are tried as places
-    bool paper = false;        ///< the paper's placement, with quadrics that add up (else those of the current faces)
-    bool constrained = true;   ///< false: for comparison only; the result is not Delaunay
+    std::size_t polish_below = 12000;  ///< levels of up to so many vertices get care for single vertices:
+    double reduce_from = 1.2;          ///< from this many times the number wanted on, edges go by the samples' sum ...
+    std::size_t reduce_most = 600;     ///< ... or only so many of them;
+    int polish_rounds = 6;             ///< then vertices are exchanged in so many rounds at most ...
+    double polish_gain = 0.01;         ///< ... as long as each lowers the mean square by this part ...
+    std::size_t polish_most = 2000;    ///< ... and tries so many changes of each kind at most
+    bool paper = false;       ///< the paper's placement, with quadrics that add up (else those of the current faces)
+    bool constrained = true;  ///< false: for comparison only; the result is not Delaunay
 
     /// Section 5 of the paper: the quadrics of Garland and Heckbert, and nothing else.
     static Tuning of_the_paper(double crease_cosine) {

@@ -73,6 +73,11 @@ void VertexWeights::renumber(const std::vector<VertexId>& ids) {
     current_.swap(current);
 }
 
+void VertexWeights::resize() {
+    history_.resize(mesh_.vertex_count());
+    current_.resize(mesh_.vertex_count());
+}
+
 void VertexWeights::refresh(VertexId v) {
     if (tuning_.paper) return;
     const Quadric q = planes_at(v);

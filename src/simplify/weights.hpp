@@ -32,6 +32,8 @@ public:
     void set_history(VertexId v, const Quadric& merged) { history_[v.index()] = merged; }
     /// To be called when the faces at v have changed.
     void refresh(VertexId v);
+    /// The number of vertices has changed; new ones stand for nothing yet.
+    void resize();
     /// The vertices have got other ids.
     void renumber(const std::vector<VertexId>& ids);
     /// To be called when the edge of the star has been collapsed to w (local), between `left` and `right` (not valid at

@@ -10,7 +10,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace delmesh {
 namespace {
@@ -50,6 +52,42 @@ TEST_P(SamplesOf, AreMeasuredToTheNearestFaceOfTheStar) {
         EXPECT_NEAR(error.forward, worst, 1e-12 * size * size);
         EXPECT_GE(error.worst(), error.forward);
     }
+}
+
+/// Of any faces, not only those of a star.
+TEST_P(SamplesOf, FindTheNearestOfTheFacesNamed) {
+    Mesh mesh = delaunay_sample(GetParam(), 2000);
+    SurfaceSamples samples(mesh, mesh.vertex_count(), 1, 1'000'000);
+    std::vector<FaceId> faces;
+    for (std::size_t f = 0; f < mesh.face_count() && faces.size() < 40; f += 7) faces.emplace_back(f);
+    test::Random random(9);
+    for (const FaceId f : faces)
+        for (const VertexId v : mesh.corners().subspan(3 * f.index(), 3))
+            mesh.set_point(v, mesh.point(v) + Vec3{random.real(-0.1, 0.1), random.real(-0.1, 0.1), 0});
+    std::vector<SurfaceSamples::Place> places;
+    samples.gather(faces, places);
+    ASSERT_GT(places.size(), faces.size());
+    const std::vector<SurfaceSamples::Place> before = places;
+    const SampleError error = samples.find_places(mesh, 1, faces, 1e300, places);
+    double sum = 0;
+    for (const SurfaceSamples::Place& place : places) {
+        const auto distance2 = [&](FaceId f) {
+            const auto v = mesh.corners().subspan(3 * f.index(), 3);
+            return nearest_on_triangle(samples.point(place), mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]))
+                .distance2;
+        };
+        double best = distance2(faces[0]);
+        for (const FaceId f : faces) best = std::min(best, distance2(f));
+        EXPECT_NEAR(place.distance2, best, 1e-6 * best + 1e-12);
+        EXPECT_NEAR(distance2(place.face), best, 1e-6 * best + 1e-12);
+        sum += samples.weight(place) * static_cast<double>(place.distance2);
+    }
+    EXPECT_NEAR(error.sum, sum, 1e-9 * sum);
+    const double total = samples.sum();
+    samples.put(faces, places);
+    EXPECT_NEAR(samples.sum(), total + sum, 1e-9 * sum) << "all were on the surface";
+    samples.put(faces, before);
+    EXPECT_NEAR(samples.sum(), total, 1e-9 * sum);
 }
 
 TEST_P(SamplesOf, AreAllKeptAndKnowTheirDistanceAfterDecimation) {

@@ -120,7 +120,7 @@ struct SimplifyReport {
     /// No mesh with the same components, handles and boundary loops has fewer vertices. 0 if nothing was simplified.
     std::size_t least_vertices = 0;
     std::size_t collapses = 0;
-    std::size_t moves = 0;  ///< vertices moved by refitting
+    std::size_t moves = 0;  ///< vertices moved by refitting, or taken to another place
     std::vector<LevelReport> levels;
     SimplifyStop stop = SimplifyStop::done;  ///< of the last level
 };

@@ -1,0 +1,156 @@
+#include "simplify/trial.hpp"
+
+#include "delmesh/mesh/edits.hpp"
+#include "exact/inline.hpp"
+#include "simplify/diagonal.hpp"
+#include "simplify/sample_fit.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+namespace delmesh {
+namespace {
+
+/// Mostly two or three are enough; a chain of many has gone astray.
+constexpr int most_flips = 16;
+/// Moves of the new vertex towards the samples.
+constexpr int most_moves = 1;
+constexpr double least_gain = 0.01;
+constexpr double regular = 1e-3;
+
+SampleError sum_up(const SurfaceSamples& samples, std::span<const SurfaceSamples::Place> places) {
+    SampleError error;
+    for (const SurfaceSamples::Place& place : places) {
+        error.sum += samples.weight(place) * static_cast<double>(place.distance2);
+        error.forward = std::max<double>(error.forward, place.distance2);
+    }
+    return error;
+}
+
+}  // namespace
+
+void Trial::push_sides(FaceId f) {
+    const HalfedgeId h = Mesh::halfedge(f);
+    stack_.insert(stack_.end(), {h, Mesh::next(h), Mesh::prev(h)});
+}
+
+/// Flips what is not Delaunay among the edges of the changed faces, and what that makes so.
+bool Trial::make_delaunay() {
+    stack_.clear();
+    for (const FaceId f : log_.changed())
+        if (mesh_.is_live(f)) push_sides(f);
+    for (int flips = 0; !stack_.empty();) {
+        const HalfedgeId h = stack_.back();
+        stack_.pop_back();
+        const HalfedgeId t = mesh_.twin(h);
+        const Vec3& p = mesh_.point(mesh_.origin(h));
+        const Vec3& q = mesh_.point(mesh_.target(h));
+        const Vec3& u = mesh_.point(mesh_.apex(h));
+        if (!t.valid()) {
+            if (exact::right_angle_sign_inline(p, q, u) == Sign::negative) return false;
+            continue;
+        }
+        if (exact::delaunay_sign_inline(p, q, u, mesh_.point(mesh_.apex(t))) != Sign::negative) continue;
+        if (++flips > most_flips || !can_flip(mesh_, h) || turns_over(mesh_, scale_, h)) return false;
+        log_.flip(h);
+        push_sides(Mesh::face(h));
+        push_sides(Mesh::face(t));
+    }
+    return std::none_of(log_.changed().begin(), log_.changed().end(), [this](FaceId f) {
+        const HalfedgeId h = Mesh::halfedge(f);
+        return mesh_.is_live(f) &&
+               exact::are_collinear_inline(mesh_.point(mesh_.origin(h)), mesh_.point(mesh_.target(h)),
+                                           mesh_.point(mesh_.apex(h)));
+    });
+}
+
+void Trial::fit(VertexId v, double allowed2) {
+    for (int i = 0; i < most_moves; ++i) {
+        gather(mesh_, v, scale_, star_);
+        samples_.gather(star_);
+        EdgeCost cost;
+        if (!fit_to_samples(star_, samples_, {}, regular, cost)) return;
+        const auto place = placer_.improve(star_, cost, {});
+        if (!place) return;
+        const Vec3 w = settle_(star_.frame.to_mesh(place->point));
+        if (w == mesh_.point(v) || !keeps_delaunay(mesh_, star_, w)) return;
+        SampleError before = samples_.present();
+        before.backward = samples_.measure_backward(star_, {});
+        const SampleError after = samples_.measure(star_, star_.frame.to_local(w));
+        if (!(after.sum < (1 - least_gain) * before.sum) || after.worst() > std::max(before.worst(), allowed2)) return;
+        log_.set_point(v, w);
+        samples_.commit(star_);
+    }
+}
+
+/// From the samples of the changed faces to those, and from the star of v to the samples.
+double Trial::worst_around(VertexId v) {
+    gather(mesh_, v, scale_, star_);
+    samples_.gather(star_);
+    samples_.gather(living_, after_);
+    return std::max(samples_.measure_backward(star_, {}), sum_up(samples_, after_).forward);
+}
+
+bool Trial::judge(VertexId v, const TrialLimits& limits) {
+    // What a fit may still take back: a vertex that has moved is worth a try at more than the limit.
+    constexpr double hope = 2;
+    samples_.gather(changed_, before_);
+    const SampleError before = sum_up(samples_, before_);
+    const double most = limits.most > 0 ? before.sum + hope * limits.most : hope * before.sum;
+    after_ = before_;
+    const SampleError after = samples_.find_places(mesh_, scale_, living_, most, after_);
+    if (after.sum > most) return false;
+    samples_.put(changed_, after_);
+    has_moved_samples_ = true;
+    const double unfitted = samples_.sum();
+    fit(v, limits.allowed2);
+    change_ = after.sum - before.sum + (samples_.sum() - unfitted);
+    return change_ < limits.most && worst_around(v) <= std::max(before.forward, limits.allowed2);
+}
+
+bool Trial::finish(VertexId v, const TrialLimits& limits) {
+    if (make_delaunay()) {
+        changed_ = log_.changed();
+        std::sort(changed_.begin(), changed_.end());
+        changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+        living_.clear();
+        std::copy_if(changed_.begin(), changed_.end(), std::back_inserter(living_),
+                     [this](FaceId f) { return mesh_.is_live(f); });
+        samples_.set_faces(mesh_.face_count());
+        if (judge(v, limits)) return true;
+    }
+    undo();
+    return false;
+}
+
+bool Trial::collapse(const Star& star, HalfedgeId h, const Vec3& w, const TrialLimits& limits) {
+    if (turns_over(star, w)) return false;
+    const VertexId kept = mesh_.origin(h);
+    log_.keep();
+    log_.collapse(h, settle_(star.frame.to_mesh(w)));
+    return finish(kept, limits);
+}
+
+bool Trial::insert(HalfedgeId h, const TrialLimits& limits) {
+    if (!can_split(mesh_, h)) return false;
+    const Vec3 middle = mesh_.point(mesh_.origin(h)) * 0.5 + mesh_.point(mesh_.target(h)) * 0.5;
+    log_.keep();
+    return finish(log_.split_edge(h, settle_(middle)), limits);
+}
+
+void Trial::keep() {
+    has_moved_samples_ = false;
+    log_.keep();
+}
+
+void Trial::undo() {
+    if (has_moved_samples_) samples_.put(changed_, before_);
+    has_moved_samples_ = false;
+    log_.undo();
+    samples_.set_faces(mesh_.face_count());
+    original_.clear();
+    std::copy_if(changed_.begin(), changed_.end(), std::back_inserter(original_),
+                 [this](FaceId f) { return f.index() < mesh_.face_count(); });
+}
+
+}  // namespace delmesh
