@@ -117,7 +117,7 @@ void Decimator::follow(const CompactMap& map) {
 namespace {
 
 /// Around what a change has left.
-constexpr RefitTuning nearby{.rounds = 3, .least_gain = 0.002};
+constexpr RefitTuning nearby{.rounds = 2, .least_gain = 0.002};
 
 /// Ids for the living ones: the same below `count`; those beyond get the ids of dead ones.
 template <class Id>

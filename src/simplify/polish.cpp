@@ -108,12 +108,15 @@ void Polisher::rank_collapses(std::size_t most) {
     keep_first(collapses_, most, smaller);
 }
 
-void Polisher::measure_collapses(const TrialLimits& limits) {
+void Polisher::measure_collapses(TrialLimits limits, std::size_t wanted) {
     std::size_t kept = 0;
+    double worst = std::numeric_limits<double>::min();
     for (const Chance chance : collapses_) {
         if (!try_collapse(chance.edge, limits)) continue;
         collapses_[kept++] = {collapse_.change(), chance.edge};
         collapse_.undo();
+        worst = std::max(worst, collapses_[kept - 1].value);
+        if (kept == wanted) limits.most = std::min(limits.most, worst);
     }
     collapses_.resize(kept);
     std::sort(collapses_.begin(), collapses_.end(), smaller);
@@ -123,7 +126,7 @@ void Polisher::measure_collapses(const TrialLimits& limits) {
 std::size_t Polisher::reduce(std::size_t count, double allowed2, const Context* context) {
     changed_.assign(mesh_.vertex_count(), false);
     rank_collapses(choice * count);
-    measure_collapses({std::numeric_limits<double>::max(), allowed2});
+    measure_collapses({std::numeric_limits<double>::max(), allowed2}, count);
     std::size_t done = 0;
     for (std::size_t i = 0; i < collapses_.size() && done < count && !is_cancelled(context); ++i) {
         const HalfedgeId h = collapses_[i].edge;
@@ -159,7 +162,7 @@ std::size_t Polisher::exchange(std::size_t most, double allowed2, const Context*
     rank_errors(std::min(most, mesh_.vertex_count() / 2));
     if (errors_.empty()) return 0;
     rank_collapses(std::min(most, mesh_.vertex_count() / 2));
-    measure_collapses({margin * usual_gain * errors_[errors_.size() / 20].value, allowed2});
+    measure_collapses({margin * usual_gain * errors_[errors_.size() / 20].value, allowed2}, collapses_.size());
     std::size_t exchanged = 0;
     int failed = 0;
     for (const Chance& chance : errors_) {

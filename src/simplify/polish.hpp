@@ -48,7 +48,8 @@ private:
     bool exchange_at(HalfedgeId h, double allowed2);
     void rank_errors(std::size_t most);
     void rank_collapses(std::size_t most);
-    void measure_collapses(const TrialLimits& limits);
+    /// Of no interest is what costs more than the dearest of the first `wanted`.
+    void measure_collapses(TrialLimits limits, std::size_t wanted);
 
     Mesh& mesh_;
     SurfaceSamples& samples_;

@@ -68,8 +68,9 @@ struct SimplifyOptions {
     /// Creases sharper than this keep their shape as the boundary does; 180: none are treated apart.
     double feature_angle_deg = 180;
     /// Follows samples of the original surface: when a level is reached, and now and then on the way, vertices are
-    /// moved closer to them, and collapses that would leave one of them far off wait until the others are done. Only
-    /// with placement `best` and without `max_quadric_error_rel`.
+    /// moved closer to them, and collapses that would leave one of them far off wait until the others are done; at
+    /// the end of a level that is not too large, they say which vertices are worth more elsewhere. Only with placement
+    /// `best` and without `max_quadric_error_rel`.
     bool refit = true;
     /// How an input that is not Delaunay yet is made so. `remesh.precision` is also what new vertices are rounded to.
     RemeshOptions remesh = default_remesh();
