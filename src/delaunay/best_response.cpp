@@ -239,10 +239,11 @@ std::span<const double> BestResponse::solve(std::uint32_t e, std::size_t first, 
     model_.count_work(response_work);
     look(e);
     const double up = reach_up(low_);
+    first_reach_ = up;
     if (up >= high_ && last > first) return chosen_;
     block(e);
     aligned_.clear();
-    if (random_.chance(align_share)) add_aligned_places(model_, e, {low_, high_}, aligned_);
+    if (!is_quick_ && random_.chance(align_share)) add_aligned_places(model_, e, {low_, high_}, aligned_);
     const double down = reach_down(high_);
     if (!place_one(std::max(down, low_ + room_), std::min(up, high_ - room_))) place_many();
     return chosen_;
@@ -289,7 +290,7 @@ bool BestResponse::place_one(double low, double high) {
 
 /// Several points: the cheapest chain over some places in each cell.
 void BestResponse::place_many() {
-    add_candidates();
+    is_quick_ ? add_quick_candidates() : add_candidates();
     weigh_candidates();
     if (!cheapest_chain()) plain_chain();
 }
@@ -319,6 +320,21 @@ void BestResponse::add_candidates() {
     }
 }
 
+/// One for each cell, and as far as one gets from `low_` on.
+void BestResponse::add_quick_candidates() {
+    candidates_.clear();
+    for (const Cell& cell : cells_) candidates_.push_back({pick(cell.begin, cell.end)});
+    const double least_step = 1e-12 * (high_ - low_);
+    double at = first_reach_;
+    for (std::size_t i = 0; i < max_chain && at < high_; ++i) {
+        Candidate& here = candidates_.emplace_back();
+        here.at = at;
+        here.reach = reach_up(at);
+        if (!(here.reach > at + least_step)) break;
+        at = here.reach;
+    }
+}
+
 void BestResponse::weigh_candidates() {
     std::sort(candidates_.begin(), candidates_.end(),
               [](const Candidate& a, const Candidate& b) { return a.at < b.at; });
@@ -333,13 +349,12 @@ void BestResponse::weigh_candidates() {
 /// The cheapest way from low to high in Delaunay steps; fills `chosen_`.
 bool BestResponse::cheapest_chain() {
     constexpr int never = std::numeric_limits<int>::max() / 2;
-    const double first_reach = reach_up(low_);
+    const double first_reach = is_quick_ ? first_reach_ : reach_up(low_);
     candidates_.push_back({high_, -point_cost});
     for (std::size_t j = 0; j < candidates_.size(); ++j) {
         Candidate& here = candidates_[j];
         here.cost = never;
         here.before = -1;
-        here.reach = -1;
         const int own = point_cost + here.weight;
         if (here.at <= first_reach && j + 1 < candidates_.size()) here.cost = own;
         for (std::size_t i = 0; i < j; ++i) {

@@ -16,6 +16,9 @@ class BestResponse {
 public:
     BestResponse(SplitModel& model, Random& random) : model_(model), random_(random) {}
 
+    /// From now on fewer places are tried where several points are needed.
+    void be_quick() { is_quick_ = true; }
+
     /// New points to put in place of the points first ... last-1 of edge e, which must be prepared. May be none. An
     /// empty stretch (first == last) asks for one point or more in part `first`, whether that is bad or not.
     [[nodiscard]] std::span<const double> solve(std::uint32_t e, std::size_t first, std::size_t last);
@@ -48,7 +51,7 @@ private:
         int weight = 0;
         int cost = 0;
         int before = 0;
-        double reach = 0;
+        double reach = -1;  ///< unknown if negative
     };
     /// The points that one side of the edge can see, in its frame; for single triangles only.
     struct View {
@@ -78,15 +81,18 @@ private:
     void place_many();
     [[nodiscard]] double distance2_to_others(double t) const;
     void add_candidates();
+    void add_quick_candidates();
     void weigh_candidates();
     [[nodiscard]] bool cheapest_chain();
     void plain_chain();
 
     SplitModel& model_;
     Random& random_;
+    bool is_quick_ = false;
     double low_ = 0;  ///< the stretch that is being solved
     double high_ = 1;
     double room_ = 0;
+    double first_reach_ = -1;  ///< from low_, once it is known
     std::array<View, 2> views_;
     std::vector<Cell> blocked_;  ///< one for each part of another edge, with its weight
     std::vector<Event> events_;

@@ -13,6 +13,8 @@ namespace {
 constexpr double work_per_edge = 30'000;
 constexpr double quick_work_per_edge = 1'000;
 constexpr double quick_work_per_split = 200;
+constexpr double construct_work_per_edge = 600;
+constexpr double least_construct_work = 100'000;
 constexpr double least_work = 200e6;
 /// Reached at 67,000 edges: nobody wants to wait for minutes unasked. A higher effort is asked.
 constexpr double most_work = 2e9;
@@ -152,6 +154,11 @@ void SplitChooser::put(std::span<const PlacedPoint> points, const std::vector<st
     }
     while (model_.suspect_count() > 0) model_.drop_suspect(model_.suspect_count() - 1);
     search_.set_open(open);
+}
+
+void SplitChooser::construct_quickly() {
+    const double work = least_construct_work + construct_work_per_edge * static_cast<double>(bad_.size());
+    search_.construct_quickly(bad_, static_cast<std::uint64_t>(work));
 }
 
 /// For large angles. Does not need the work it may do.

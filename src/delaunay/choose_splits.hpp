@@ -32,6 +32,8 @@ public:
     void set_baseline(std::span<const SplitPoint> splits);
     /// Without a baseline some edges may stay as they are, not Delaunay.
     void search(const Context* context);
+    /// Instead of `search`: in about the time of the shells, and less well. Edges may stay as they are.
+    void construct_quickly();
     /// The points, ordered by edge and parameter.
     [[nodiscard]] std::vector<SplitPoint> splits() const;
     /// These input edges, by their ends, have turned out not to be Delaunay: from now on they keep a distance from

@@ -16,6 +16,9 @@ namespace {
 
 /// Rounds of putting the points in and mending, in the model, what rounding breaks.
 constexpr int most_trials = 4;
+/// Where construction and shells together need more splits than these, shells alone are tried instead.
+constexpr std::size_t most_splits_per_edge = 12;
+constexpr std::size_t least_most_splits = 500;
 
 /// A copy of the mesh to try something on.
 struct Trial {
@@ -68,7 +71,22 @@ public:
           start_(start),
           report_(report) {}
 
+    /// Effort 0. Shells finish what the construction leaves open. Alone they are run only for as long as they need
+    /// fewer splits than that.
+    TrialPointer run_quickly() {
+        TrialPointer ours = by_construction(most_splits_per_edge * start_.bad.size() + least_most_splits);
+        if (ours->cancelled() || (ours->done() && ours->report.splits == start_.bad.size())) return ours;
+        const bool is_cut_short = !ours->done();
+        TrialPointer shells = by_shells(is_cut_short ? unlimited : ours->report.splits - 1);
+        if (shells->cancelled()) return shells;
+        if (!shells->done() && is_cut_short) ours = by_construction(unlimited);
+        if (ours->cancelled() || ours->beats(shells->report)) return ours;
+        if (shells->done()) shells->report.splits_by_shells = shells->report.splits;
+        return shells;
+    }
+
     TrialPointer run() {
+        if (options_.effort == 0) return run_quickly();
         // Needles make shells explode; then what is found without them is all that is needed.
         const std::size_t few = 100'000 + 20 * start_.bad.size();
         std::size_t most_splits = few;
@@ -91,14 +109,32 @@ public:
 private:
     static constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
 
+    [[nodiscard]] RemeshOptions at_most(std::size_t splits) const {
+        return splits == unlimited ? options_ : with_at_most(options_, marked_.mesh().vertex_count() + splits);
+    }
+
     /// Stops with `max_vertices` where more splits than these would be needed.
     TrialPointer by_shells(std::size_t most_splits) {
-        const std::size_t vertices = marked_.mesh().vertex_count();
-        const RemeshOptions options =
-            most_splits == unlimited ? options_ : with_at_most(options_, vertices + most_splits);
+        const RemeshOptions options = at_most(most_splits);
         auto trial = std::make_unique<Trial>(marked_, report_);
         trial->marked.reserve_splits(6 * start_.bad.size());
         refine_and_clean(trial->marked, options, context_, trial->report, start_.queue);
+        return trial;
+    }
+
+    /// Among points that solve a strip only in part, shells may need more than alone.
+    TrialPointer by_construction(std::size_t most_splits) {
+        SplitChooser chooser(marked_, start_.bad, {0, options_.seed});
+        chooser.construct_quickly();
+        auto trial = std::make_unique<Trial>(marked_, report_);
+        if (is_cancelled(context_)) {
+            trial->report.stop = StopReason::cancelled;
+            return trial;
+        }
+        const RemeshOptions options = at_most(most_splits);
+        std::vector<HalfedgeId> left =
+            carry_out(trial->marked, options, context_, trial->report, start_, chooser.splits());
+        if (trial->done()) refine_and_clean(trial->marked, options, context_, trial->report, std::move(left));
         return trial;
     }
 
@@ -124,10 +160,9 @@ private:
     /// None if that is the baseline.
     TrialPointer better_of(const Baseline& shells) {
         if (TrialPointer trial = by_probes(shells)) return trial;
-        const bool searches = options_.effort > 0;
-        SplitChooser chooser(marked_, start_.bad, {static_cast<int>(options_.effort), options_.seed, !searches});
+        SplitChooser chooser(marked_, start_.bad, {static_cast<int>(options_.effort), options_.seed});
         TrialPointer trial = by_search(chooser, shells);
-        if (searches && misses_its_plan(*trial, chooser)) {
+        if (misses_its_plan(*trial, chooser)) {
             // Rounding broke what was found. It may leave alone what takes less searching.
             for (const bool quick : {false, true}) {
                 if (trial->cancelled()) break;

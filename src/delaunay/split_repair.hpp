@@ -14,6 +14,9 @@ class SplitRepair {
 public:
     SplitRepair(SplitModel& model, Random& random) : model_(model), random_(random), response_(model, random) {}
 
+    /// See BestResponse.
+    void be_quick() { response_.be_quick(); }
+
     /// Works off the model's suspects: places new points on an edge with bad parts, or on the edge whose point such a
     /// part sees. Each time an edge turns up its weight grows, so that others avoid to make it bad. False as soon as
     /// that has taken more than `steps` steps, or as the points, and 0.4 for each edge that is still suspected, exceed

@@ -8,6 +8,9 @@ namespace {
 
 constexpr int first_rounds = 6;
 constexpr std::size_t first_steps = 50;
+constexpr std::array<std::size_t, 4> quick_steps{12, 48, 48, 96};
+constexpr std::size_t most_quickly_weaved = 128;
+constexpr std::uint64_t ring_share = 4;  ///< one in so many units of quick work
 constexpr int mend_tries = 6;
 constexpr int shake_tries = 20;
 constexpr int close_tries = 3;
@@ -83,6 +86,23 @@ void SplitSearch::construct(const std::vector<std::uint32_t>& bad_edges, std::ui
     set_open(bad_edges);
     for (int round = 0; round < first_rounds && !open_.empty(); ++round)
         close_each([&](std::uint32_t e) { return attempt(e, first_steps, round > 0 && random_.chance(0.7)); });
+}
+
+void SplitSearch::construct_quickly(const std::vector<std::uint32_t>& bad_edges, std::uint64_t work) {
+    repair_.be_quick();
+    set_open(bad_edges);
+    const std::uint64_t end = model_.work() + work;
+    for (std::size_t round = 0; round < quick_steps.size(); ++round) {
+        repair_.set_work_limit(end);
+        close_each([&](std::uint32_t e) {
+            return !repair_.is_exhausted() && attempt(e, quick_steps[round], round > 0 && random_.chance(0.7));
+        });
+        if (round == 0) close_rings(work / ring_share);
+    }
+    repair_.set_work_limit(end);
+    for (std::size_t size = 8; size <= most_quickly_weaved; size *= 4)
+        close_each(
+            [&](std::uint32_t e) { return !repair_.is_exhausted() && settle(e, weave(e, weave_steps * size, false)); });
 }
 
 void SplitSearch::drop_closed() {

@@ -31,6 +31,9 @@ public:
     /// are not Delaunay, and nothing tries to mend them but further attempts.
     void construct(const std::vector<std::uint32_t>& bad_edges, std::uint64_t work);
 
+    /// The same in a fraction of the time, and less well: few and short attempts, rings, and a little weaving.
+    void construct_quickly(const std::vector<std::uint32_t>& bad_edges, std::uint64_t work);
+
     /// Solves the rings of long thin facets that open edges lie in.
     void close_rings(std::uint64_t work);
     /// Solves rings that have points with fewer ones, where that is possible.

@@ -86,6 +86,19 @@ TEST(Effort, NeverAddsPoints) {
     }
 }
 
+TEST(Effort, ZeroTakesHalfOfTheShellsOnRoughSurfaces) {
+    for (const char* sample : {"noisy-sphere", "noisy-surface"}) {
+        const Mesh before(make_sample(sample, 2000));
+        Mesh shells = before;
+        Mesh mesh = before;
+        const RemeshReport by_shells = make_delaunay(shells, options_of(SplitPlacement::shells));
+        const RemeshReport report = make_delaunay(mesh, options_of(SplitPlacement::fewest));
+        ASSERT_EQ(report.stop, StopReason::done);
+        EXPECT_EQ(check_delaunay(mesh), "");
+        EXPECT_LT(2 * report.splits, by_shells.splits) << sample;
+    }
+}
+
 /// A long thin tube whose sides have very different widths, with uneven ends: triangles as thin as one to some
 /// thousands. Points on one long edge make points on the next one necessary, all around, and few places fit.
 Mesh make_tube(std::uint64_t seed) {
@@ -118,7 +131,7 @@ TEST(ThinTubes, TakeAFewThreadsAroundAndNotThousandsOfShells) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         const Mesh before = make_tube(seed);
         Mesh mesh = before;
-        const RemeshReport report = make_delaunay(mesh, options_of(SplitPlacement::fewest, 0));
+        const RemeshReport report = make_delaunay(mesh, options_of(SplitPlacement::fewest, 1));
         ASSERT_EQ(report.stop, StopReason::done);
         EXPECT_EQ(check_delaunay(mesh), "");
         EXPECT_EQ(check_preserved(before, mesh, report.provenance, 1e-13), "");
