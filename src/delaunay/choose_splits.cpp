@@ -47,6 +47,7 @@ SplitChooser::SplitChooser(const MarkedMesh& marked, std::span<const EdgeId> bad
     : model_(marked),
       search_(model_, options.seed),
       options_(options) {
+    model_.expect(bad.size());
     bad_.reserve(bad.size());
     for (const EdgeId e : bad) {
         bad_.push_back(model_.edge_of(Mesh::halfedge(e)));

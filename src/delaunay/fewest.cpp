@@ -20,9 +20,18 @@ constexpr int most_trials = 4;
 constexpr std::size_t most_splits_per_edge = 12;
 constexpr std::size_t least_most_splits = 500;
 
+constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
+
+RemeshOptions with_at_most_splits(const RemeshOptions& options, const Mesh& mesh, std::size_t splits) {
+    return splits == unlimited ? options : with_at_most(options, mesh.vertex_count() + splits);
+}
+
 /// A copy of the mesh to try something on.
 struct Trial {
-    Trial(const MarkedMesh& from, const RemeshReport& so_far) : mesh(from.mesh()), marked(mesh, from), report(so_far) {}
+    /// With room for so many splits.
+    Trial(const MarkedMesh& from, const RemeshReport& so_far, std::size_t splits)
+        : marked(mesh, from, splits),
+          report(so_far) {}
     ~Trial() = default;
     Trial(const Trial&) = delete;
     Trial(Trial&&) = delete;
@@ -71,22 +80,7 @@ public:
           start_(start),
           report_(report) {}
 
-    /// Effort 0. Shells finish what the construction leaves open. Alone they are run only for as long as they need
-    /// fewer splits than that.
-    TrialPointer run_quickly() {
-        TrialPointer ours = by_construction(most_splits_per_edge * start_.bad.size() + least_most_splits);
-        if (ours->cancelled() || (ours->done() && ours->report.splits == start_.bad.size())) return ours;
-        const bool is_cut_short = !ours->done();
-        TrialPointer shells = by_shells(is_cut_short ? unlimited : ours->report.splits - 1);
-        if (shells->cancelled()) return shells;
-        if (!shells->done() && is_cut_short) ours = by_construction(unlimited);
-        if (ours->cancelled() || ours->beats(shells->report)) return ours;
-        if (shells->done()) shells->report.splits_by_shells = shells->report.splits;
-        return shells;
-    }
-
     TrialPointer run() {
-        if (options_.effort == 0) return run_quickly();
         // Needles make shells explode; then what is found without them is all that is needed.
         const std::size_t few = 100'000 + 20 * start_.bad.size();
         std::size_t most_splits = few;
@@ -107,34 +101,11 @@ public:
     }
 
 private:
-    static constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
-
-    [[nodiscard]] RemeshOptions at_most(std::size_t splits) const {
-        return splits == unlimited ? options_ : with_at_most(options_, marked_.mesh().vertex_count() + splits);
-    }
-
     /// Stops with `max_vertices` where more splits than these would be needed.
     TrialPointer by_shells(std::size_t most_splits) {
-        const RemeshOptions options = at_most(most_splits);
-        auto trial = std::make_unique<Trial>(marked_, report_);
-        trial->marked.reserve_splits(6 * start_.bad.size());
+        const RemeshOptions options = with_at_most_splits(options_, marked_.mesh(), most_splits);
+        auto trial = std::make_unique<Trial>(marked_, report_, 6 * start_.bad.size());
         refine_and_clean(trial->marked, options, context_, trial->report, start_.queue);
-        return trial;
-    }
-
-    /// Among points that solve a strip only in part, shells may need more than alone.
-    TrialPointer by_construction(std::size_t most_splits) {
-        SplitChooser chooser(marked_, start_.bad, {0, options_.seed});
-        chooser.construct_quickly();
-        auto trial = std::make_unique<Trial>(marked_, report_);
-        if (is_cancelled(context_)) {
-            trial->report.stop = StopReason::cancelled;
-            return trial;
-        }
-        const RemeshOptions options = at_most(most_splits);
-        std::vector<HalfedgeId> left =
-            carry_out(trial->marked, options, context_, trial->report, start_, chooser.splits());
-        if (trial->done()) refine_and_clean(trial->marked, options, context_, trial->report, std::move(left));
         return trial;
     }
 
@@ -143,7 +114,7 @@ private:
         const std::size_t below = shells.done() ? shells.report.splits : unlimited;
         const std::vector<SplitPoint> plan = probe_splits(marked_, options_, start_, below, context_);
         if (plan.empty()) return nullptr;
-        auto trial = std::make_unique<Trial>(marked_, report_);
+        auto trial = std::make_unique<Trial>(marked_, report_, plan.size());
         std::vector<HalfedgeId> left = carry_out(trial->marked, options_, context_, trial->report, start_, plan);
         if (trial->done()) refine_and_clean(trial->marked, options_, context_, trial->report, std::move(left));
         return trial->beats(shells.report) ? std::move(trial) : nullptr;
@@ -193,13 +164,13 @@ private:
 
     TrialPointer by_plan(SplitChooser& chooser) {
         for (int round = 1;; ++round) {
-            auto trial = std::make_unique<Trial>(marked_, report_);
+            const std::vector<SplitPoint> plan = chooser.splits();
+            auto trial = std::make_unique<Trial>(marked_, report_, plan.size() + plan.size() / 8);
             if (is_cancelled(context_)) {
                 trial->report.stop = StopReason::cancelled;
                 return trial;
             }
-            std::vector<HalfedgeId> left =
-                carry_out(trial->marked, options_, context_, trial->report, start_, chooser.splits());
+            std::vector<HalfedgeId> left = carry_out(trial->marked, options_, context_, trial->report, start_, plan);
             if (!left.empty() && trial->done() && round < most_trials && chooser.mend(input_edges(*trial, left)))
                 continue;
             if (trial->done()) refine_and_clean(trial->marked, options_, context_, trial->report, std::move(left));
@@ -215,10 +186,78 @@ private:
     const RemeshReport& report_;
 };
 
+/// Effort 0: shells finish what a quick construction leaves open. Alone they are run only for as long as they need fewer
+/// splits than that.
+class QuickContest {
+public:
+    QuickContest(MarkedMesh& marked, const RemeshOptions& options, const Context* context, const RefineStart& start)
+        : marked_(marked),
+          options_(options),
+          context_(context),
+          start_(start) {}
+
+    void run(RemeshReport& report) {
+        const std::size_t least = start_.bad.size();
+        TrialPointer ours = by_construction(report, most_splits_per_edge * least + least_most_splits);
+        if (ours->cancelled() || (ours->done() && ours->report.splits == least)) return take(*ours, report);
+        if (!ours->done()) return run_shells_first(report);
+        RemeshReport by_shells = report;
+        const std::size_t most = ours->report.splits - 1;
+        marked_.reserve_splits(std::min(most, 6 * least));
+        refine_and_clean(marked_, with_at_most_splits(options_, marked_.mesh(), most), context_, by_shells,
+                         start_.queue);
+        if (by_shells.stop != StopReason::cancelled && ours->beats(by_shells)) return take(*ours, report);
+        by_shells.splits_by_shells = by_shells.splits;
+        report = std::move(by_shells);
+    }
+
+private:
+    /// Where construction and shells together need very many splits, or fail.
+    void run_shells_first(RemeshReport& report) {
+        Trial shells(marked_, report, 6 * start_.bad.size());
+        refine_and_clean(shells.marked, options_, context_, shells.report, start_.queue);
+        if (!shells.done() && !shells.cancelled()) {
+            TrialPointer ours = by_construction(report, unlimited);
+            if (ours->cancelled() || ours->done()) return take(*ours, report);
+        }
+        if (shells.done()) shells.report.splits_by_shells = shells.report.splits;
+        take(shells, report);
+    }
+
+    [[nodiscard]] TrialPointer by_construction(const RemeshReport& report, std::size_t most_splits) {
+        std::vector<SplitPoint> plan;
+        {
+            SplitChooser chooser(marked_, start_.bad, {0, options_.seed});
+            chooser.construct_quickly();
+            plan = chooser.splits();
+        }
+        auto trial = std::make_unique<Trial>(marked_, report, plan.size() + plan.size() / 8);
+        if (is_cancelled(context_)) {
+            trial->report.stop = StopReason::cancelled;
+            return trial;
+        }
+        const RemeshOptions options = with_at_most_splits(options_, marked_.mesh(), most_splits);
+        std::vector<HalfedgeId> left = carry_out(trial->marked, options, context_, trial->report, start_, plan);
+        if (trial->done()) refine_and_clean(trial->marked, options, context_, trial->report, std::move(left));
+        return trial;
+    }
+
+    void take(Trial& best, RemeshReport& report) {
+        report = std::move(best.report);
+        marked_.take(std::move(best.marked));
+    }
+
+    MarkedMesh& marked_;
+    const RemeshOptions& options_;
+    const Context* context_;
+    const RefineStart& start_;
+};
+
 }  // namespace
 
 void preserve_with_fewest(MarkedMesh& marked, const RemeshOptions& options, const Context* context,
                           RemeshReport& report, const RefineStart& start) {
+    if (options.effort == 0) return QuickContest(marked, options, context, start).run(report);
     const TrialPointer best = Contest(marked, options, context, start, report).run();
     report = std::move(best->report);
     marked.take(std::move(best->marked));

@@ -29,6 +29,23 @@ MarkedMesh::MarkedMesh(Mesh& copy, const MarkedMesh& other)
       flat_(other.flat_),
       merged_(other.merged_) {}
 
+MarkedMesh::MarkedMesh(Mesh& empty, const MarkedMesh& other, std::size_t splits)
+    : mesh_(empty),
+      input_vertices_(other.input_vertices_),
+      flat_(other.flat_),
+      merged_(other.merged_) {
+    // Room first: to copy once and to grow afterwards would copy twice.
+    const std::size_t faces = other.mesh_.face_count() + 2 * splits;
+    reserve(mesh_, other.mesh_.vertex_count() + splits, faces);
+    marks_.reserve(3 * faces);
+    if (!other.facets_.empty()) facets_.reserve(faces);
+    splits_.reserve(other.splits_.size() + splits);
+    mesh_ = other.mesh_;
+    marks_ = other.marks_;
+    facets_ = other.facets_;
+    splits_ = other.splits_;
+}
+
 void MarkedMesh::take(MarkedMesh&& other) {
     mesh_ = std::move(other.mesh_);
     marks_ = std::move(other.marks_);

@@ -45,6 +45,8 @@ public:
 
     /// The same marks for a mesh that is a copy of other's.
     MarkedMesh(Mesh& copy, const MarkedMesh& other);
+    /// Copies the other mesh into an empty one, with room for so many splits.
+    MarkedMesh(Mesh& empty, const MarkedMesh& other, std::size_t splits);
     /// Takes over the mesh and the marks of another one, which is of no more use.
     void take(MarkedMesh&& other);
 
