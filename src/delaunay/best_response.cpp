@@ -145,17 +145,17 @@ void BestResponse::block(std::uint32_t e) {
     blocked_.clear();
     for (const std::uint32_t own : model_.layout().edge(e).side) {
         if (own == SplitModel::none) continue;
-        const Facet& facet = model_.layout().facet(model_.layout().facet_at(own));
+        const Side side = model_.layout().side(own);
+        const Facet& facet = model_.layout().facet(side.facet);
         for (std::uint32_t s = facet.first_side; s < facet.first_side + facet.side_count; ++s)
-            if (model_.layout().edge_at(s) != e) block_by_side(own, s);
+            if (model_.layout().edge_at(s) != e) block_by_side(own, side, s);
     }
     find_cells();
 }
 
 /// A point (x,y) makes a part [a,b] of side s bad where (a-x)(b-x) + y^2 < level * y * (b-a): inside a circle, so in an
 /// interval of the edge.
-void BestResponse::block_by_side(std::uint32_t own_side, std::uint32_t s) {
-    const Side own = model_.layout().side(own_side);
+void BestResponse::block_by_side(std::uint32_t own_side, const Side& own, std::uint32_t s) {
     const Side side = model_.layout().side(s);
     const Point2 p = side.to_frame(own.start);
     const Point2 d = side.turn(own.along);

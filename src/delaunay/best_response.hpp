@@ -68,7 +68,7 @@ private:
     [[nodiscard]] double reach_down(double from) const;
 
     void block(std::uint32_t e);
-    void block_by_side(std::uint32_t own_side, std::uint32_t s);
+    void block_by_side(std::uint32_t own_side, const Side& own, std::uint32_t s);
     void find_cells();
     [[nodiscard]] int soft_weight(double t) const;
 

@@ -13,7 +13,7 @@ namespace {
 constexpr double work_per_edge = 30'000;
 constexpr double quick_work_per_edge = 1'000;
 constexpr double quick_work_per_split = 200;
-constexpr double construct_work_per_edge = 600;
+constexpr double construct_work_per_edge = 550;
 constexpr double least_construct_work = 100'000;
 constexpr double least_work = 200e6;
 /// Reached at 67,000 edges: nobody wants to wait for minutes unasked. A higher effort is asked.
@@ -51,7 +51,7 @@ SplitChooser::SplitChooser(const MarkedMesh& marked, std::span<const EdgeId> bad
     bad_.reserve(bad.size());
     for (const EdgeId e : bad) {
         bad_.push_back(model_.edge_of(Mesh::halfedge(e)));
-        model_.prepare(bad_.back());
+        if (!options.is_greedy) model_.prepare(bad_.back());
     }
 }
 

@@ -18,7 +18,8 @@ namespace delmesh {
 struct SplitSearchOptions {
     int effort = 0;  ///< 0: construction only; each step more doubles the work
     std::uint64_t seed = 1;
-    bool quick = false;  ///< where there is a baseline, the construction takes about as long as that
+    bool quick = false;      ///< where there is a baseline, the construction takes about as long as that
+    bool is_greedy = false;  ///< for `construct_quickly` and nothing else
 };
 
 /// Chooses points on physical edges after which, in exact arithmetic, all edges would be Delaunay. Deterministic.

@@ -186,8 +186,8 @@ private:
     const RemeshReport& report_;
 };
 
-/// Effort 0: shells finish what a quick construction leaves open. Alone they are run only for as long as they need fewer
-/// splits than that.
+/// Effort 0: shells finish what a quick construction leaves open. Alone they are run only for as long as they need
+/// fewer splits than that.
 class QuickContest {
 public:
     QuickContest(MarkedMesh& marked, const RemeshOptions& options, const Context* context, const RefineStart& start)
@@ -224,16 +224,21 @@ private:
         take(shells, report);
     }
 
+    /// Not `done` if nothing was constructed.
     [[nodiscard]] TrialPointer by_construction(const RemeshReport& report, std::size_t most_splits) {
         std::vector<SplitPoint> plan;
         {
-            SplitChooser chooser(marked_, start_.bad, {0, options_.seed});
+            SplitChooser chooser(marked_, start_.bad, {.seed = options_.seed, .is_greedy = true});
             chooser.construct_quickly();
             plan = chooser.splits();
         }
         auto trial = std::make_unique<Trial>(marked_, report, plan.size() + plan.size() / 8);
         if (is_cancelled(context_)) {
             trial->report.stop = StopReason::cancelled;
+            return trial;
+        }
+        if (plan.empty()) {
+            trial->report.stop = StopReason::unresolved;
             return trial;
         }
         const RemeshOptions options = with_at_most_splits(options_, marked_.mesh(), most_splits);

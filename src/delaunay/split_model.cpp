@@ -292,14 +292,15 @@ Contact SplitModel::nearest(std::uint32_t s, double a, double b) const {
     ++work_;
     Contact best{cot_of(a, b, side.apex), side.apex, none};
     const std::uint32_t i = s - facet.first_side;
-    scan(side, facet.first_side + (i == 2 ? 0 : i + 1), a, b, best);
-    scan(side, facet.first_side + (i == 0 ? 2 : i - 1), a, b, best);
+    const std::uint32_t next = facet.first_side + (i == 2 ? 0 : i + 1);
+    const std::uint32_t before = facet.first_side + (i == 0 ? 2 : i - 1);
+    if (has_points(next)) scan(side, next, a, b, best);
+    if (has_points(before)) scan(side, before, a, b, best);
     return best;
 }
 
-/// Improves on `best` by the points of another side.
+/// Improves on `best` by the points of another side, which has some.
 void SplitModel::scan(const Side& side, std::uint32_t s, double a, double b, Contact& best) const {
-    if (point_count(layout_.edge_at(s)) == 0) return;
     const Side other = layout_.side(s);
     const auto points = parts(other.edge).first(point_count(other.edge));
     const Point2 p = side.to_frame(other.start);
@@ -380,7 +381,7 @@ Contact SplitModel::flood(std::uint32_t s, double a, double b) const {
             if (!triangle.is_side[i]) continue;
             const std::uint32_t other = triangle.beyond[i];
             Contact found{best.cot, {}, none};
-            if (layout_.edge_at(other) != side.edge) scan(side, other, a, b, found);
+            if (layout_.edge_at(other) != side.edge && has_points(other)) scan(side, other, a, b, found);
             if (found.edge != none) take(found);
         }
         for (std::size_t i = 0; i < 3; ++i) {
@@ -394,10 +395,10 @@ Contact SplitModel::flood(std::uint32_t s, double a, double b) const {
     return best;
 }
 
-bool SplitModel::reaches(std::uint32_t s, double a, double b, double level, std::uint32_t t) const {
+bool SplitModel::reaches_through(std::uint32_t s, double a, double b, double level, std::uint32_t t) const {
     const Side side = layout_.side(s);
     const std::uint32_t goal = layout_.side(t).triangle;
-    if (layout_.facet(side.facet).single || goal == side.triangle) return true;
+    if (goal == side.triangle) return true;
     start_visit();
     heap_.assign(1, {level, side.triangle});
     visit(side.triangle);

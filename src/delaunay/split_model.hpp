@@ -85,7 +85,9 @@ public:
     [[nodiscard]] Contact nearest(std::uint32_t s, double a, double b) const;
     /// True if the disc of the points that see [a,b] of side s with a cotangent below `level` reaches side t within the
     /// facet.
-    [[nodiscard]] bool reaches(std::uint32_t s, double a, double b, double level, std::uint32_t t) const;
+    [[nodiscard]] bool reaches(std::uint32_t s, double a, double b, double level, std::uint32_t t) const {
+        return layout_.facet(layout_.facet_at(s)).single || reaches_through(s, a, b, level, t);
+    }
 
     // --- weights, for the search ---
     [[nodiscard]] int weight(std::uint32_t e) const { return states_[e].weight; }
@@ -142,6 +144,8 @@ private:
     void touch_facet(std::uint32_t e, std::uint32_t side, std::span<const double> points, bool removed);
     void touch_side(std::uint32_t e, const Side& from, std::uint32_t s, std::span<const double> points, bool removed);
     void scan(const Side& side, std::uint32_t s, double a, double b, Contact& best) const;
+    [[nodiscard]] bool has_points(std::uint32_t s) const { return point_count(layout_.edge_at(s)) > 0; }
+    [[nodiscard]] bool reaches_through(std::uint32_t s, double a, double b, double level, std::uint32_t t) const;
     [[nodiscard]] Contact flood(std::uint32_t s, double a, double b) const;
     [[nodiscard]] double portal_level(const Side& side, const FacetTriangle& triangle, std::size_t i, double a,
                                       double b) const;

@@ -11,6 +11,7 @@ constexpr std::size_t first_steps = 50;
 constexpr std::array<std::size_t, 4> quick_steps{12, 48, 48, 96};
 constexpr std::size_t most_quickly_weaved = 128;
 constexpr std::uint64_t ring_share = 4;  ///< one in so many units of quick work
+constexpr std::uint64_t look_share = 4;  ///< the same: facets of very many sides are not worth a look
 constexpr int mend_tries = 6;
 constexpr int shake_tries = 20;
 constexpr int close_tries = 3;
@@ -90,8 +91,11 @@ void SplitSearch::construct(const std::vector<std::uint32_t>& bad_edges, std::ui
 
 void SplitSearch::construct_quickly(const std::vector<std::uint32_t>& bad_edges, std::uint64_t work) {
     repair_.be_quick();
-    set_open(bad_edges);
     const std::uint64_t end = model_.work() + work;
+    repair_.set_work_limit(model_.work() + work / look_share);
+    std::size_t known = 0;
+    for (; known < bad_edges.size() && !repair_.is_exhausted(); ++known) model_.prepare(bad_edges[known]);
+    set_open({bad_edges.begin(), bad_edges.begin() + static_cast<std::ptrdiff_t>(known)});
     for (std::size_t round = 0; round < quick_steps.size(); ++round) {
         repair_.set_work_limit(end);
         close_each([&](std::uint32_t e) {

@@ -32,6 +32,7 @@ public:
     void construct(const std::vector<std::uint32_t>& bad_edges, std::uint64_t work);
 
     /// The same in a fraction of the time, and less well: few and short attempts, rings, and a little weaving.
+    /// Edges need not be prepared, and may be neither Delaunay nor `open` in the end.
     void construct_quickly(const std::vector<std::uint32_t>& bad_edges, std::uint64_t work);
 
     /// Solves the rings of long thin facets that open edges lie in.
