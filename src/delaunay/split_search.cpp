@@ -11,7 +11,7 @@ constexpr std::size_t first_steps = 50;
 constexpr std::array<std::size_t, 4> quick_steps{12, 48, 48, 96};
 constexpr std::size_t most_quickly_weaved = 128;
 constexpr std::uint64_t ring_share = 4;  ///< one in so many units of quick work
-constexpr std::uint64_t look_share = 4;  ///< the same: facets of very many sides are not worth a look
+constexpr std::uint64_t look_share = 2;  ///< the same: facets of very many sides are not worth a look
 constexpr int mend_tries = 6;
 constexpr int shake_tries = 20;
 constexpr int close_tries = 3;
