@@ -16,9 +16,9 @@ constexpr double quick_work_per_split = 200;
 constexpr double construct_work_per_edge = 550;
 constexpr double least_construct_work = 100'000;
 constexpr double least_work = 200e6;
-/// Reached at 67,000 edges: nobody wants to wait for minutes unasked. A higher effort is asked.
+/// Nobody wants to wait for minutes unasked. A higher effort is asked.
 constexpr double most_work = 2e9;
-constexpr double most_block_work = 2e9;  ///< in blocks, each round half of it
+constexpr double most_block_work = 0.8e9;  ///< in blocks, each round half of it
 constexpr int default_effort = 3;
 /// From here on the search cuts the mesh into blocks.
 constexpr std::size_t many_edges = 4000;

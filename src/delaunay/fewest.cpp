@@ -83,19 +83,17 @@ public:
     TrialPointer run() {
         // Needles make shells explode; then what is found without them is all that is needed.
         const std::size_t few = 100'000 + 20 * start_.bad.size();
-        std::size_t most_splits = few;
-        TrialPointer best = by_shells(most_splits);
-        TrialPointer without;
+        TrialPointer best = by_shells(few);
         if (best->report.stop == StopReason::max_vertices && best->report.splits >= few) {
-            without = better_of(std::move(best), few);
-            if (without->cancelled() || (without->done() && without->report.splits <= few)) return without;
-            most_splits = without->done() ? without->report.splits - 1 : unlimited;
-            best = by_shells(most_splits);
-            if (!best->done() && !best->cancelled()) return without;
+            most_splits_ = few;
+            TrialPointer without = better_of(std::move(best), few);
+            most_splits_ = unlimited;
+            if (without->done() || without->cancelled()) return without;
+            best = by_shells(unlimited);
+            if (!best->done() && !best->cancelled()) return by_closest_plan(std::move(best));
         }
         const std::size_t splits_by_shells = best->done() ? best->report.splits : 0;
-        if (!best->cancelled() && splits_by_shells != start_.bad.size()) best = better_of(std::move(best), most_splits);
-        if (without && without->beats(best->report)) best = std::move(without);
+        if (!best->cancelled() && splits_by_shells != start_.bad.size()) best = better_of(std::move(best), unlimited);
         best->report.splits_by_shells = splits_by_shells;
         return best;
     }
@@ -163,6 +161,7 @@ private:
     }
 
     TrialPointer by_plan(SplitChooser& chooser) {
+        const RemeshOptions options = with_at_most_splits(options_, marked_.mesh(), most_splits_);
         for (int round = 1;; ++round) {
             const std::vector<SplitPoint> plan = chooser.splits();
             auto trial = std::make_unique<Trial>(marked_, report_, plan.size() + plan.size() / 8);
@@ -170,13 +169,30 @@ private:
                 trial->report.stop = StopReason::cancelled;
                 return trial;
             }
-            std::vector<HalfedgeId> left = carry_out(trial->marked, options_, context_, trial->report, start_, plan);
+            std::vector<HalfedgeId> left = carry_out(trial->marked, options, context_, trial->report, start_, plan);
             if (!left.empty() && trial->done() && round < most_trials && chooser.mend(input_edges(*trial, left)))
                 continue;
-            if (trial->done()) refine_and_clean(trial->marked, options_, context_, trial->report, std::move(left));
+            const std::size_t still_open = left.size();
+            if (trial->done()) refine_and_clean(trial->marked, options, context_, trial->report, std::move(left));
             trial->report.splits = trial->marked.split_count();
+            if (trial->report.stop == StopReason::max_vertices && still_open < least_open_) {
+                least_open_ = still_open;
+                closest_plan_ = plan;
+            }
             return trial;
         }
+    }
+
+    /// Where neither shells nor any plan ended within what was allowed: the best plan with all that the user allows.
+    TrialPointer by_closest_plan(TrialPointer shells) {
+        if (closest_plan_.empty()) return shells;
+        shells.reset();
+        auto trial = std::make_unique<Trial>(marked_, report_, closest_plan_.size());
+        std::vector<HalfedgeId> left =
+            carry_out(trial->marked, options_, context_, trial->report, start_, closest_plan_);
+        if (trial->done()) refine_and_clean(trial->marked, options_, context_, trial->report, std::move(left));
+        trial->report.splits = trial->marked.split_count();
+        return trial;
     }
 
     const MarkedMesh& marked_;
@@ -184,6 +200,9 @@ private:
     const Context* context_;
     const RefineStart& start_;
     const RemeshReport& report_;
+    std::size_t most_splits_ = unlimited;  ///< of a plan that is carried out
+    std::size_t least_open_ = unlimited;   ///< edges that the closest plan leaves to shells
+    std::vector<SplitPoint> closest_plan_;
 };
 
 /// Effort 0: shells finish what a quick construction leaves open. Alone they are run only for as long as they need

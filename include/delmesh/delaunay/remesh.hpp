@@ -150,7 +150,7 @@ struct RemeshOptions {
                 .name = "max-vertices",
                 .lowest = 0,
                 .help =
-                    "stop before the output has more; 0: the command stops at 20 times the input, or 5 million more"});
+                    "stop before the output has more; 0: the command stops at 20 times the input, or 2 million more"});
     }
 };
 
