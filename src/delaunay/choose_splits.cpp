@@ -17,7 +17,7 @@ constexpr double construct_work_per_edge = 550;
 constexpr double least_construct_work = 100'000;
 constexpr double least_work = 200e6;
 /// Nobody wants to wait for minutes unasked. A higher effort is asked.
-constexpr double most_work = 2e9;
+constexpr double most_work = 0.8e9;
 constexpr double most_block_work = 0.8e9;  ///< in blocks, each round half of it
 constexpr int default_effort = 3;
 /// From here on the search cuts the mesh into blocks.
@@ -102,7 +102,7 @@ void SplitChooser::search(const Context* context) {
     } else {
         find_places(full, context);
     }
-    if (is_cancelled(context)) return;
+    if (is_cancelled(context) || is_hopeless()) return;
     if (options_.effort > 0) {
         search_.thin_rings(static_cast<std::uint64_t>(0.1 * full));
         spread(full, in_blocks, context);
@@ -110,6 +110,11 @@ void SplitChooser::search(const Context* context) {
     if (baseline_.empty()) return;
     delmesh::take_better_regions(model_, search_.open(), placed_points(model_), baseline_);
     is_compared_ = true;
+}
+
+/// What is still open in a large mesh makes the shells explode again: no use in improving the rest.
+bool SplitChooser::is_hopeless() const {
+    return bad_.size() >= many_edges && baseline_.empty() && !search_.open().empty();
 }
 
 void SplitChooser::find_places(double full, const Context* context) {
@@ -120,6 +125,7 @@ void SplitChooser::find_places(double full, const Context* context) {
     if (is_cancelled(context)) return;
     search_.close_rings(static_cast<std::uint64_t>(std::min(full, 0.1 * default_work())));
     search_.close_open(static_cast<std::uint64_t>(full));
+    if (is_hopeless()) return;
     const double left = (1 + spare_share) * full - static_cast<double>(model_.work() - before);
     if (options_.effort > 0)
         in_blocks ? improve_blocks(context)

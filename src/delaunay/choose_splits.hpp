@@ -47,6 +47,7 @@ public:
 private:
     [[nodiscard]] double default_work() const;
     [[nodiscard]] double full_work() const;
+    [[nodiscard]] bool is_hopeless() const;
     void find_places(double full, const Context* context);
     void find_best_places(double full, const Context* context);
     void put(std::span<const PlacedPoint> points, const std::vector<std::uint32_t>& open);

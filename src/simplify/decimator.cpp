@@ -48,6 +48,7 @@ void Decimator::enqueue_all() {
     is_outdated_ = false;
     queue_.reset(mesh_.halfedge_count());
     parked_.clear();
+    watches_.clear();
     raised2_ = 0;
     for (std::size_t i = 0; i < mesh_.halfedge_count(); ++i) {
         const HalfedgeId h(i);

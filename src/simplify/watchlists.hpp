@@ -3,6 +3,7 @@
 
 #include "delmesh/base/ids.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -35,6 +36,12 @@ public:
             free_ = node;
             node = next;
         }
+    }
+    /// Empties all lists.
+    void clear() {
+        std::fill(first_.begin(), first_.end(), none);
+        nodes_.clear();
+        free_ = none;
     }
 
 private:
