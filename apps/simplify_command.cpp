@@ -103,20 +103,21 @@ Json run_to_json(const SimplifyArguments& arguments, const Outcome& outcome) {
     if (outcome.report.remesh) {
         json["flips"] = outcome.report.remesh->flips;
         json["splits"] = outcome.report.remesh->splits;
+        json["thinned_to"] = outcome.report.thinned_to;
+        json["remesh_angle_deg"] = outcome.report.remesh_angle_deg;
     }
     json["rounded_by"] = outcome.rounded_by;
     if (outcome.repair) json["repair"] = to_json(*outcome.repair);
     json["options"] = options_to_json(arguments.options);
     json["options"]["levels"] = arguments.options.levels;
     json["options"]["mode"] = arguments.mode;
-    json["options"]["remesh_angle_deg"] =
-        outcome.report.remesh ? outcome.report.remesh_angle_deg : arguments.options.remesh.feature_angle_deg;
+    json["options"]["remesh_angle_deg"] = arguments.options.remesh.feature_angle_deg;
     json["seconds"] = outcome.watch.seconds();
     json["peak_memory_bytes"] = peak_memory_bytes();
     return json;
 }
 
-void tell_people(const Outcome& outcome, Console& console) {
+void tell_people(const Outcome& outcome, double remesh_angle_deg, Console& console) {
     std::vector<std::string> titles{"input"};
     std::vector<Measured> columns{outcome.before};
     for (const Level& level : outcome.levels) {
@@ -127,6 +128,14 @@ void tell_people(const Outcome& outcome, Console& console) {
     if (outcome.report.remesh)
         console.say(fmt::format("\nthe input was not Delaunay and was remeshed first: {} flips, {} splits",
                                 with_commas(outcome.report.remesh->flips), with_commas(outcome.report.remesh->splits)));
+    if (outcome.report.thinned_to > 0)
+        console.say(
+            fmt::format("before that, needles were thinned out, to {} vertices: as it came, the input needed too many",
+                        with_commas(outcome.report.thinned_to)));
+    if (outcome.report.remesh && outcome.report.remesh_angle_deg > remesh_angle_deg)
+        console.say(
+            fmt::format("edges that deviate from flat by up to {} degrees were flipped, as {} needs too many vertices",
+                        outcome.report.remesh_angle_deg, remesh_angle_deg));
     for (const Level& level : outcome.levels)
         if (level.written) console.say(fmt::format("wrote {}", level.path));
 }
@@ -147,14 +156,16 @@ void check_arguments(const SimplifyArguments& arguments) {
 
 /// Remeshing that multiplies the vertices undoes what the user came for, and takes long.
 std::size_t sensible_limit(std::size_t vertices) {
-    return std::max(5 * vertices, vertices + 1'000'000);
+    return std::max(5 * vertices, vertices + 500'000);
 }
 
 std::string why_nothing_was_done(const SimplifyReport& report) {
+    if (report.remesh && report.remesh->stop == StopReason::unresolved)
+        return "not Delaunay, and double precision can not hold the points that it needs; `delmesh repair --weld 1e-6` "
+               "may join what lies too close";
     if (!report.remesh || report.remesh->stop != StopReason::max_vertices) return std::string(name(report.stop));
-    return fmt::format(
-        "not Delaunay, and still not with {} vertices added; a larger --remesh-angle or --mode flip adds fewer",
-        with_commas(report.remesh->splits));
+    return fmt::format("not Delaunay, and still not with {} vertices added; --mode flip may do with fewer",
+                       with_commas(report.remesh->splits));
 }
 
 int run_simplify(SimplifyArguments& arguments, Console& console) {
@@ -192,7 +203,7 @@ int run_simplify(SimplifyArguments& arguments, Console& console) {
     if (outcome.report.stop == SimplifyStop::cancelled) return console.interrupted();
     if (!arguments.lod.empty()) write_lod(arguments.lod, record);
     if (console.wants_json()) console.print(run_to_json(arguments, outcome));
-    tell_people(outcome, console);
+    tell_people(outcome, arguments.options.remesh.feature_angle_deg, console);
 
     for (const Level& level : outcome.levels) {
         if (level.written && is_wanted_end(arguments, level.report)) continue;
@@ -237,7 +248,8 @@ void add_simplify_command(CLI::App& app, Action& action) {
                 arguments->options.remesh.feature_angle_deg = angle;
                 arguments->options.wider_angle_on_noise = false;
             },
-            "Mode feature: edges that deviate from flat by more are not flipped; default 15, large noisy inputs 30")
+            "Mode feature: edges that deviate from flat by more are not flipped, unless that needs too many vertices; "
+            "default 15, large noisy inputs 30")
         ->type_name("DEG")
         ->capture_default_str()
         ->check(CLI::Range(0.0, 180.0));

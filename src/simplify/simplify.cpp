@@ -1,13 +1,12 @@
 #include "delmesh/simplify/simplify.hpp"
 
-#include "delaunay/vertex_limit.hpp"
 #include "delmesh/base/error.hpp"
-#include "delmesh/measure/certificate.hpp"
 #include "delmesh/measure/statistics.hpp"
 #include "delmesh/mesh/edits.hpp"
 #include "delmesh/simplify/progressive_mesh.hpp"
 #include "simplify/decimator.hpp"
 #include "simplify/least_vertices.hpp"
+#include "simplify/start.hpp"
 #include "simplify/sweeper.hpp"
 
 #include <fmt/format.h>
@@ -110,11 +109,6 @@ LevelReport describe_level(const Decimator& decimator, std::size_t target, const
     return level;
 }
 
-void drop_isolated(Mesh& mesh) {
-    for (std::size_t v = 0; v < mesh.vertex_count(); ++v)
-        if (mesh.is_live(VertexId(v)) && !mesh.halfedge(VertexId(v)).valid()) remove_isolated(mesh, VertexId(v));
-}
-
 Mesh without_dead(const Mesh& mesh, const Numbering& numbering) {
     Mesh copy = mesh;
     drop_isolated(copy);
@@ -199,61 +193,6 @@ std::string_view name(Obstacle obstacle) {
 
 namespace {
 
-/// Points by shells are as good as any where they are few, since most go again; where they are many they stand in each
-/// other's way, and a search for fewer pays (unless there are so many that it would take longer than all the rest).
-RemeshReport remesh(Mesh& mesh, const RemeshOptions& options, const Context* context) {
-    if (options.placement == SplitPlacement::shells) return make_delaunay(mesh, options, context);
-    constexpr std::size_t searched_for = 20'000;
-    const std::size_t vertices = mesh.vertex_count();
-    RemeshOptions shells = with_at_most(options, vertices + std::max(searched_for, vertices));
-    shells.placement = SplitPlacement::shells;
-    Mesh by_shells = mesh;
-    RemeshReport report = make_delaunay(by_shells, shells, context);
-    const bool is_enough = report.splits <= vertices / 10 || report.splits > searched_for;
-    if (report.stop == StopReason::cancelled || (report.stop == StopReason::done && is_enough)) {
-        mesh = std::move(by_shells);
-        return report;
-    }
-    return make_delaunay(mesh, options, context);
-}
-
-/// Whether more than a quarter of the edges are sharper than 15 degrees, where there are so many that this must be
-/// noise.
-bool is_large_and_noisy(const Mesh& mesh) {
-    constexpr std::size_t large = 100'000;
-    constexpr std::size_t looked_at = 100'000;
-    constexpr double cosine = 0.9659258262890683;
-    if (mesh.vertex_count() < large) return false;
-    const double scale = local_scale(mesh);
-    const auto normal_of = [&](HalfedgeId h) {
-        const Frame frame{scale, 1 / scale, mesh.point(mesh.origin(h))};
-        return cross(frame.to_local(mesh.point(mesh.target(h))), frame.to_local(mesh.point(mesh.apex(h))));
-    };
-    std::size_t edges = 0;
-    std::size_t sharp = 0;
-    for (std::size_t i = 0; i < mesh.halfedge_count(); i += 1 + mesh.halfedge_count() / looked_at) {
-        const HalfedgeId h(i);
-        if (mesh.is_boundary(h)) continue;
-        const Vec3 n = normal_of(h);
-        const Vec3 m = normal_of(mesh.twin(h));
-        ++edges;
-        if (dot(n, m) < cosine * std::sqrt(squared_norm(n) * squared_norm(m))) ++sharp;
-    }
-    return sharp > edges / 4;
-}
-
-bool remesh_first(Mesh& mesh, const SimplifyOptions& options, SimplifyReport& report, const Context* context) {
-    if (certify(mesh, context).certified) return true;
-    RemeshOptions how = options.remesh;
-    if (options.wider_angle_on_noise && how.mode == RemeshMode::feature && is_large_and_noisy(mesh))
-        how.feature_angle_deg = std::min(180.0, 2 * how.feature_angle_deg);
-    report.remesh_angle_deg = how.feature_angle_deg;
-    report.remesh = remesh(mesh, how, context);
-    if (report.remesh->stop == StopReason::done) return true;
-    report.stop = is_cancelled(context) ? SimplifyStop::cancelled : SimplifyStop::not_delaunay;
-    return false;
-}
-
 /// While there is a long way to go: in sweeps.
 std::unique_ptr<Sweeper> sweep_first(Mesh& mesh, const Tuning& tuning, const SimplifyOptions& options,
                                      std::size_t target, Numbering& numbering, const Context* context) {
@@ -287,7 +226,7 @@ void reach(Decimator& decimator, std::size_t target, const Way& way, const Tunin
     if (way.shakes && decimator.vertices() > std::max(target, report.least_vertices)) {
         decimator.close_gaps(numbering);
         // Nobody waits long for what can not be reached.
-        const std::size_t most = target < report.least_vertices ? 1'000'000 : 30'000'000;
+        const std::size_t most = target < report.least_vertices ? 1'000'000 : 24'000'000;
         shake_free(decimator, std::max(target, report.least_vertices), most, context);
     }
     report.levels.push_back(describe_level(decimator, target, context));
@@ -307,18 +246,22 @@ SimplifyReport run(Mesh& mesh, const SimplifyOptions& options, ProgressiveMesh* 
     SimplifyReport report;
     report.input_vertices = mesh.vertex_count();
     const double diagonal = bounding_diagonal(mesh);
-    if (!remesh_first(mesh, options, report, context)) {
-        if (record != nullptr) *record = {mesh, {}};
-        return report;
-    }
-    report.least_vertices = least_vertices(mesh);
     const bool shakes = options.max_quadric_error_rel == 0 && options.placement == Placement::best;
     const bool refit = options.refit && shakes;
     const std::vector<std::size_t> targets = find_targets(options, report.input_vertices);
     const Tuning tuning = tuning_for(options);
+    const StartLimits limits{.vertices = targets.front(), .may_thin = shakes && record == nullptr};
+    if (!make_start_delaunay(mesh, options, tuning, limits, report, context)) {
+        report.stop = is_cancelled(context) ? SimplifyStop::cancelled : SimplifyStop::not_delaunay;
+        if (record != nullptr) *record = {mesh, {}};
+        return report;
+    }
+    report.least_vertices = least_vertices(mesh);
     Numbering numbering(mesh);
     std::optional<SurfaceSamples> samples;
-    if (refit) samples.emplace(mesh, report.input_vertices, local_scale(mesh), samples_for(targets.front()));
+    if (refit)
+        samples.emplace(mesh, std::min(report.input_vertices, mesh.vertex_count()), local_scale(mesh),
+                        samples_for(targets.front()));
     std::unique_ptr<Sweeper> sweeper;
     // All steps of a progressive mesh are levels, so they are made with all care.
     if (refit && record == nullptr) sweeper = sweep_first(mesh, tuning, options, targets.front(), numbering, context);

@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace delmesh {
@@ -88,6 +89,39 @@ TEST(Simplify, EverySingleCollapseLeavesADelaunayMesh) {
         }
         EXPECT_LT(decimator.vertices(), before.used_vertices / 2) << name;
     }
+}
+
+/// Needles that would need more points than allowed are collapsed before they get any.
+TEST(Simplify, WhatNeedsTooManyPointsIsThinnedOutFirst) {
+    Mesh mesh = sample("stretched-sphere", 2000);
+    for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+        Vec3 p = mesh.point(VertexId(v));
+        p.z *= 256;
+        mesh.set_point(VertexId(v), p);
+    }
+    const SurfaceFacts before = test::examine(to_soup(mesh));
+    SimplifyOptions options = to_vertices(mesh.vertex_count() / 20);
+    options.remesh.max_vertices = 12 * mesh.vertex_count();
+    Mesh remeshed = mesh;
+    ASSERT_EQ(make_delaunay(remeshed, options.remesh).stop, StopReason::max_vertices);
+    Mesh again = mesh;
+
+    const SimplifyReport report = simplify(mesh, options);
+    EXPECT_EQ(report.stop, SimplifyStop::done);
+    EXPECT_EQ(mesh.vertex_count(), options.vertices);
+    EXPECT_EQ(report.thinned_to, 2 * options.vertices);
+    EXPECT_LT(report.remesh->splits, options.remesh.max_vertices);
+    expect_sound(mesh, before, "thinned");
+    simplify(again, options);
+    EXPECT_TRUE(std::ranges::equal(again.points(), mesh.points()));
+}
+
+TEST(Simplify, NothingIsThinnedOutNorFlippedWiderWithoutNeed) {
+    Mesh mesh = sample("noisy-sphere", 2000);
+    const SimplifyReport report = simplify(mesh, to_vertices(100));
+    ASSERT_TRUE(report.remesh.has_value());
+    EXPECT_EQ(report.thinned_to, 0u);
+    EXPECT_EQ(report.remesh_angle_deg, SimplifyOptions::default_remesh().feature_angle_deg);
 }
 
 TEST(Simplify, AClosedSphereGoesDownToATetrahedron) {

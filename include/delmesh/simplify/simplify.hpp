@@ -86,7 +86,7 @@ struct SimplifyOptions {
         RemeshOptions remesh;
         remesh.mode = RemeshMode::feature;
         remesh.feature_angle_deg = 15;
-        remesh.effort = 0;
+        remesh.effort = 1;
         return remesh;
     }
 
@@ -116,7 +116,13 @@ struct SimplifyOptions {
 struct SimplifyReport {
     /// Given if the input was not Delaunay and was remeshed first.
     std::optional<RemeshReport> remesh;
-    double remesh_angle_deg = 0;     ///< the angle of mode `feature` that it was remeshed with
+    /// Mode feature: the angle that this was done with. More than was asked for on large noisy inputs
+    /// (`wider_angle_on_noise`), and where that needed more vertices than `remesh.max_vertices` or points that doubles
+    /// can not hold (45, or 180: all edges may flip).
+    double remesh_angle_deg = 0;
+    /// Where remeshing would have stopped short: to so many vertices the mesh was brought before it, by collapses
+    /// without the Delaunay conditions. 0: that was not needed.
+    std::size_t thinned_to = 0;
     std::size_t input_vertices = 0;  ///< of the mesh as it came, isolated ones included: what `ratio` refers to
     /// No mesh with the same components, handles and boundary loops has fewer vertices. 0 if nothing was simplified.
     std::size_t least_vertices = 0;
@@ -132,7 +138,8 @@ struct SimplifyReport {
 /// can not be reached, the report says how far it came and what blocks. Isolated vertices are dropped. Vertex and face
 /// ids are those of the coarsest level: what survives keeps its order.
 ///
-/// An input that is not Delaunay is remeshed first with `options.remesh`; ratios and targets refer to the number of
+/// An input that is not Delaunay is remeshed first with `options.remesh`, and with a wider feature angle where that
+/// stops short; ratios and targets refer to the number of
 /// vertices before that. Not guaranteed: a bound on the distance to the original, and that the surface does not
 /// intersect itself. After cancelling the mesh is valid and Delaunay (once it was), somewhere between two levels.
 ///
