@@ -13,41 +13,41 @@
 namespace delmesh {
 namespace {
 
-/// Where remeshing needs too many vertices, a mesh is thinned out to so many times the vertices asked for first.
+/// Where remeshing stops short or more than doubles the vertices, the mesh is thinned out to so many times those asked
+/// for first.
 constexpr std::size_t thin_from = 2;
 /// Tried where the angle asked for needs too many vertices; after that all edges may flip.
 constexpr double wider_angle_deg = 45;
 
-bool is_over(const RemeshReport& report) {
-    return report.stop == StopReason::done || report.stop == StopReason::cancelled;
-}
+struct Remeshed {
+    Mesh mesh;
+    RemeshReport report;
 
-/// The mesh stays as it is where that stops short.
-RemeshReport try_remesh(Mesh& mesh, const RemeshOptions& options, const Context* context) {
-    Mesh attempt = mesh;
-    RemeshReport report = make_delaunay(attempt, options, context);
-    if (is_over(report)) mesh = std::move(attempt);
-    return report;
+    [[nodiscard]] bool done() const { return report.stop == StopReason::done; }
+    [[nodiscard]] bool cancelled() const { return report.stop == StopReason::cancelled; }
+};
+
+Remeshed remeshed(const Mesh& mesh, const RemeshOptions& options, const Context* context) {
+    Remeshed result{mesh, {}};
+    result.report = make_delaunay(result.mesh, options, context);
+    return result;
 }
 
 /// Points by shells are as good as any where they are few, since most go again; where they are many they stand in each
 /// other's way, and a search for fewer pays (unless there are so many that it would take longer than all the rest).
-RemeshReport remesh(Mesh& mesh, const RemeshOptions& options, const Context* context) {
-    if (options.placement == SplitPlacement::shells) return try_remesh(mesh, options, context);
+Remeshed with_few_points(const Mesh& mesh, const RemeshOptions& options, const Context* context) {
+    if (options.placement == SplitPlacement::shells) return remeshed(mesh, options, context);
     constexpr std::size_t searched_for = 20'000;
     const std::size_t vertices = mesh.vertex_count();
     RemeshOptions shells = with_at_most(options, vertices + std::max(searched_for, vertices));
     shells.placement = SplitPlacement::shells;
     {
-        Mesh by_shells = mesh;
-        RemeshReport report = make_delaunay(by_shells, shells, context);
-        const bool is_enough = report.splits <= vertices / 10 || report.splits > searched_for;
-        if (report.stop == StopReason::cancelled || (report.stop == StopReason::done && is_enough)) {
-            mesh = std::move(by_shells);
-            return report;
-        }
+        Remeshed by_shells = remeshed(mesh, shells, context);
+        const std::size_t splits = by_shells.report.splits;
+        const bool is_enough = splits <= vertices / 10 || splits > searched_for;
+        if (by_shells.cancelled() || (by_shells.done() && is_enough)) return by_shells;
     }
-    return try_remesh(mesh, options, context);
+    return remeshed(mesh, options, context);
 }
 
 /// Whether more than a quarter of the edges are sharper than 15 degrees, where there are so many that this must be
@@ -76,11 +76,12 @@ bool is_large_and_noisy(const Mesh& mesh) {
 }
 
 /// Sharper edges than asked for are flipped where keeping them needs too many vertices.
-RemeshReport remesh_with_wider_angles(Mesh& mesh, RemeshOptions options, double& angle_deg, const Context* context) {
+Remeshed with_wider_angles(const Mesh& mesh, RemeshOptions options, double& angle_deg, const Context* context) {
     for (;;) {
         angle_deg = options.feature_angle_deg;
-        RemeshReport report = remesh(mesh, options, context);
-        if (is_over(report) || options.mode != RemeshMode::feature || angle_deg >= 180) return report;
+        Remeshed result = with_few_points(mesh, options, context);
+        if (result.done() || result.cancelled() || options.mode != RemeshMode::feature || angle_deg >= 180)
+            return result;
         options.feature_angle_deg = angle_deg < wider_angle_deg ? wider_angle_deg : 180;
     }
 }
@@ -107,17 +108,27 @@ bool make_start_delaunay(Mesh& mesh, const SimplifyOptions& options, const Tunin
     RemeshOptions how = options.remesh;
     if (options.wider_angle_on_noise && how.mode == RemeshMode::feature && is_large_and_noisy(mesh))
         how.feature_angle_deg = std::min(180.0, 2 * how.feature_angle_deg);
-    report.remesh_angle_deg = how.feature_angle_deg;
-    report.remesh = remesh(mesh, how, context);
-    if (is_over(*report.remesh)) return report.remesh->stop == StopReason::done;
+    const auto take = [&](Remeshed&& result, double angle_deg, std::size_t thinned_to) {
+        mesh = std::move(result.mesh);
+        report.remesh = std::move(result.report);
+        report.remesh_angle_deg = angle_deg;
+        report.thinned_to = thinned_to;
+        return report.remesh->stop == StopReason::done;
+    };
+    const std::size_t vertices = mesh.vertex_count();
+    Remeshed first = with_few_points(mesh, how, context);
+    const bool may_thin = limits.may_thin && thin_from * limits.vertices < vertices;
+    if (first.cancelled() || (first.done() && (first.report.splits <= vertices || !may_thin)))
+        return take(std::move(first), how.feature_angle_deg, 0);
+    if (!first.done()) first.mesh = {};
 
-    const std::size_t thin_until = thin_from * limits.vertices;
-    if (limits.may_thin && thin_until < mesh.vertex_count()) {
-        thin_out(mesh, tuning, how.precision, thin_until, context);
-        report.thinned_to = mesh.vertex_count();
-    }
-    report.remesh = remesh_with_wider_angles(mesh, how, report.remesh_angle_deg, context);
-    return report.remesh->stop == StopReason::done;
+    if (may_thin) thin_out(mesh, tuning, how.precision, thin_from * limits.vertices, context);
+    const std::size_t thinned_to = may_thin ? mesh.vertex_count() : 0;
+    double angle_deg = 0;
+    Remeshed second = with_wider_angles(mesh, how, angle_deg, context);
+    if (first.done() && !(second.done() && second.mesh.vertex_count() < first.mesh.vertex_count()))
+        return take(std::move(first), how.feature_angle_deg, 0);
+    return take(std::move(second), angle_deg, thinned_to);
 }
 
 }  // namespace delmesh

@@ -120,8 +120,8 @@ struct SimplifyReport {
     /// (`wider_angle_on_noise`), and where that needed more vertices than `remesh.max_vertices` or points that doubles
     /// can not hold (45, or 180: all edges may flip).
     double remesh_angle_deg = 0;
-    /// Where remeshing would have stopped short: to so many vertices the mesh was brought before it, by collapses
-    /// without the Delaunay conditions. 0: that was not needed.
+    /// Where remeshing would have stopped short or more than doubled the mesh: to so many vertices the mesh was brought
+    /// before it, by collapses without the Delaunay conditions. 0: that was not needed.
     std::size_t thinned_to = 0;
     std::size_t input_vertices = 0;  ///< of the mesh as it came, isolated ones included: what `ratio` refers to
     /// No mesh with the same components, handles and boundary loops has fewer vertices. 0 if nothing was simplified.
