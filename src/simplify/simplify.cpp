@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 
 namespace delmesh {
@@ -23,6 +24,9 @@ constexpr double least_far = 256;
 
 /// From so many vertices on at the finest level, time counts for more, and chance for less.
 constexpr std::size_t many = 20'000;
+
+/// Around a vertex with more faces than these, each collapse would look at the samples of all of them.
+constexpr std::uint32_t hub = 1000;
 
 /// What is given to the user is worth more than what is passed on the way.
 RefitTuning tuning_at_level(std::size_t vertices) {
@@ -193,6 +197,13 @@ std::string_view name(Obstacle obstacle) {
 
 namespace {
 
+bool has_hub(const Mesh& mesh) {
+    std::vector<std::uint32_t> faces(mesh.vertex_count());
+    for (const VertexId v : mesh.corners())
+        if (v.valid() && ++faces[v.index()] > hub) return true;
+    return false;
+}
+
 /// While there is a long way to go: in sweeps.
 std::unique_ptr<Sweeper> sweep_first(Mesh& mesh, const Tuning& tuning, const SimplifyOptions& options,
                                      std::size_t target, Numbering& numbering, const Context* context) {
@@ -247,7 +258,6 @@ SimplifyReport run(Mesh& mesh, const SimplifyOptions& options, ProgressiveMesh* 
     report.input_vertices = mesh.vertex_count();
     const double diagonal = bounding_diagonal(mesh);
     const bool shakes = options.max_quadric_error_rel == 0 && options.placement == Placement::best;
-    const bool refit = options.refit && shakes;
     const std::vector<std::size_t> targets = find_targets(options, report.input_vertices);
     const Tuning tuning = tuning_for(options);
     const StartLimits limits{.vertices = targets.front(), .may_thin = shakes && record == nullptr};
@@ -257,6 +267,7 @@ SimplifyReport run(Mesh& mesh, const SimplifyOptions& options, ProgressiveMesh* 
         return report;
     }
     report.least_vertices = least_vertices(mesh);
+    const bool refit = options.refit && shakes && !has_hub(mesh);
     Numbering numbering(mesh);
     std::optional<SurfaceSamples> samples;
     if (refit)
