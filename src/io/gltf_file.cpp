@@ -22,8 +22,9 @@ std::uint32_t word(std::string_view bytes, std::size_t at) {
 
 /// Extensions that change nothing about where triangles are, or that are read.
 bool is_harmless(std::string_view extension) {
-    constexpr std::array<std::string_view, 6> prefixes{"KHR_materials_", "KHR_texture_", "EXT_texture_",
-                                                       "KHR_lights_",    "KHR_xmp",      "KHR_mesh_quantization"};
+    constexpr std::array<std::string_view, 8> prefixes{"KHR_materials_", "KHR_technique",        "KHR_texture_",
+                                                       "EXT_texture_",   "MSFT_texture_",        "KHR_lights_",
+                                                       "KHR_xmp",        "KHR_mesh_quantization"};
     return std::ranges::any_of(prefixes, [&](std::string_view prefix) { return extension.starts_with(prefix); });
 }
 

@@ -153,6 +153,16 @@ TEST(ReadGltf, QuantisedPositions) {
     }
 }
 
+TEST(ReadGltf, ExtensionsThatMoveNothingArePassedOver) {
+    for (const char* extension : {"KHR_materials_unlit", "KHR_techniques_webgl", "KHR_technique_webgl",
+                                  "KHR_texture_transform", "MSFT_texture_dds", "KHR_lights_punctual"}) {
+        const std::string json =
+            tetrahedron_json(one_node, 1, {}, std::string("\"extensionsRequired\":[\"") + extension + "\"],");
+        const PolygonSoup soup = test::parse(test::glb(json, tetrahedron_buffer()), "a.glb");
+        EXPECT_TRUE(test::same_soup(soup, tetrahedron())) << extension;
+    }
+}
+
 TEST(ReadGltf, CompressionIsRefusedByName) {
     for (const char* extension : {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_made_up"}) {
         const std::string json =
