@@ -181,7 +181,7 @@ void tell_people(const RemeshArguments& arguments, const Outcome& outcome, Conso
 
 /// Growth is finite but can be absurd: a sphere stretched by a million wants billions of vertices.
 std::size_t sensible_limit(std::size_t vertices) {
-    return std::max(20 * vertices, vertices + 2'000'000);
+    return std::max(5 * vertices, vertices + 2'000'000);
 }
 
 void complete_options(RemeshArguments& arguments, const PolygonSoup& soup) {

@@ -89,6 +89,7 @@ public:
             TrialPointer without = better_of(std::move(best), few);
             most_splits_ = unlimited;
             if (without->done() || without->cancelled()) return without;
+            without.reset();
             best = by_shells(unlimited);
             if (!best->done() && !best->cancelled()) return by_closest_plan(std::move(best));
         }

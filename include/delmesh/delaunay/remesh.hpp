@@ -144,13 +144,12 @@ struct RemeshOptions {
                        .lowest = 0,
                        .highest = 0.01,
                        .help = "mode preserve: edges flatter than this count as planar; the surface stays within it"});
-        visit(
-            self.max_vertices,
-            OptionInfo{
-                .name = "max-vertices",
-                .lowest = 0,
-                .help =
-                    "stop before the output has more; 0: the command stops at 20 times the input, or 2 million more"});
+        visit(self.max_vertices,
+              OptionInfo{
+                  .name = "max-vertices",
+                  .lowest = 0,
+                  .help =
+                      "stop before the output has more; 0: the command stops at 5 times the input, or 2 million more"});
     }
 };
 
