@@ -99,6 +99,7 @@ bool gather(const Mesh& mesh, HalfedgeId h, double scale, Star& star) {
     const HalfedgeId t = mesh.twin(h);
     star.u = mesh.origin(h);
     star.v = mesh.target(h);
+    star.ring.clear();  // nothing of the last edge is left where this one has no star
     const bool u_open = mesh.is_boundary(star.u);
     const bool v_open = mesh.is_boundary(star.v);
     if (t.valid() && u_open && v_open) return false;
@@ -107,7 +108,6 @@ bool gather(const Mesh& mesh, HalfedgeId h, double scale, Star& star) {
     star.v_point = star.frame.to_local(mesh.point(star.v));
     star.closed = !u_open && !v_open;
     star.has_outers = false;
-    star.ring.clear();
     star.dying_count = 0;
     star.dying_face[0] = Mesh::face(h);
     star.dying[star.dying_count++] = face_normal(star, star.frame.to_local(mesh.point(mesh.apex(h))));

@@ -1,0 +1,37 @@
+#include "simplify/star.hpp"
+
+#include "delmesh/mesh/mesh.hpp"
+
+#include <gtest/gtest.h>
+
+#include <utility>
+
+namespace delmesh {
+namespace {
+
+/// A vertex 0 with four faces around it; the edge 2-3 of one of them has a further face on its outer side, so that it
+/// joins two boundary vertices through the inside.
+Mesh fan_with_chord() {
+    PolygonSoup soup;
+    soup.points = {{0, 0, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {-1, -1, 0}, {0, 3, 0}};
+    soup.corners = {0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 1, 2, 5, 3};
+    return Mesh(std::move(soup));
+}
+
+HalfedgeId find(const Mesh& mesh, VertexId from, VertexId to) {
+    for (std::size_t i = 0; i < mesh.halfedge_count(); ++i)
+        if (mesh.origin(HalfedgeId(i)) == from && mesh.target(HalfedgeId(i)) == to) return HalfedgeId(i);
+    return {};
+}
+
+TEST(Star, OfAChordIsEmptyWhateverWasGatheredBefore) {
+    const Mesh mesh = fan_with_chord();
+    Star star;
+    ASSERT_TRUE(gather(mesh, find(mesh, VertexId(0), VertexId(1)), 1, star));
+    EXPECT_EQ(star.ring.size(), 3u);
+    EXPECT_FALSE(gather(mesh, find(mesh, VertexId(2), VertexId(3)), 1, star));
+    EXPECT_TRUE(star.ring.empty());
+}
+
+}  // namespace
+}  // namespace delmesh
