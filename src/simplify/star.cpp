@@ -223,12 +223,14 @@ bool keeps_delaunay(const Mesh& mesh, const Star& star, const Vec3& w) {
     const std::size_t faces = star.face_count();
     const std::size_t size = star.ring.size();
     const auto point = [&](std::size_t i) -> const Vec3& { return mesh.point(star.ring[i].vertex); };
+    // Two faces back to back see w in each other.
+    const auto opposite = [&](VertexId v) -> const Vec3& { return v == star.u || v == star.v ? w : mesh.point(v); };
     for (std::size_t i = 0; i < faces; ++i) {
         const Vec3& p = point(i);
         const Vec3& q = point(star.after(i));
         if (exact::are_collinear_inline(p, q, w)) return false;
         const VertexId outer = star.ring[i].outer;
-        const Sign sign = outer.valid() ? exact::delaunay_sign_inline(p, q, w, mesh.point(outer))
+        const Sign sign = outer.valid() ? exact::delaunay_sign_inline(p, q, w, opposite(outer))
                                         : exact::right_angle_sign_inline(p, q, w);
         if (sign == Sign::negative) return false;
     }

@@ -33,5 +33,18 @@ TEST(Star, OfAChordIsEmptyWhateverWasGatheredBefore) {
     EXPECT_TRUE(star.ring.empty());
 }
 
+/// Two faces back to back: each angle counts twice.
+TEST(Star, OfTwoFacesBackToBackKeepsDelaunayUpToARightAngle) {
+    PolygonSoup soup;
+    soup.points = {{-1, 0, 0}, {1, 0, 0}, {0, 2, 0}};
+    soup.corners = {0, 1, 2, 1, 0, 2};
+    const Mesh mesh(std::move(soup));
+    Star star;
+    gather(mesh, VertexId(2), 1, star);
+    EXPECT_TRUE(keeps_delaunay(mesh, star, {0, 3, 0}));
+    EXPECT_TRUE(keeps_delaunay(mesh, star, {0, 1, 0}));
+    EXPECT_FALSE(keeps_delaunay(mesh, star, {0, 0.75, 0}));
+}
+
 }  // namespace
 }  // namespace delmesh
