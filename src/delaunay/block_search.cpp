@@ -150,8 +150,8 @@ void widen(SplitModel& model) {
     for (const std::uint32_t e : around) model.prepare(e);
 }
 
-/// True if the results fit together. They do, as no two blocks change what the same edge sees.
-bool all_is_good(SplitModel& model) {
+/// True if they do: no two blocks change what the same edge sees.
+bool fits(SplitModel& model) {
     while (model.suspect_count() > 0) {
         if (model.first_bad(model.suspect(0)) >= 0) return false;
         model.drop_suspect(0);
@@ -174,12 +174,10 @@ std::uint64_t improve_in_blocks(SplitModel& model, int round, const BlockSearchO
     std::uint64_t work = 0;
     for (const BlockResult& result : results) work += result.work;
     if (is_cancelled(context)) return work;
-    model.begin();
-    for (const BlockResult& result : results) put_back(model, result);
-    if (all_is_good(model)) {
-        model.commit();
-    } else {
-        model.rollback();
+    for (const BlockResult& result : results) {
+        model.begin();
+        put_back(model, result);
+        fits(model) ? model.commit() : model.rollback();
     }
     return work;
 }
