@@ -31,6 +31,9 @@ PolygonSoup load_and_mend(const std::string& path, const RepairOptions& options,
     PolygonSoup soup = read_soup(input_path(path), {{}, &mended.damage});
     if (rounding == Precision::float32) round_to_float(soup);
     mended.report = repair(soup, options, console.context());
+    // Nothing asks for these, and they are as large as the mesh.
+    mended.report.vertex_origin = {};
+    mended.report.face_origin = {};
     return soup;
 }
 

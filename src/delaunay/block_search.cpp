@@ -135,19 +135,23 @@ void put_back(SplitModel& model, const BlockResult& result) {
 
 /// Lays out the facets around those with points, so that the search may go there.
 void widen(SplitModel& model) {
-    std::vector<std::uint32_t> around;
     const FacetLayout& layout = model.layout();
-    for (std::uint32_t e = 0; e < model.edge_count(); ++e) {
-        if (model.point_count(e) == 0) continue;
-        for (const std::uint32_t side : layout.edge(e).side) {
+    const auto visit_around = [&](std::uint32_t e, auto&& visit) {
+        const std::array<std::uint32_t, 2> sides = layout.edge(e).side;  // copies, as the layout grows
+        for (const std::uint32_t side : sides) {
             if (side == SplitModel::none) continue;
-            const Facet& facet = layout.facet(layout.facet_at(side));
-            for (std::uint32_t s = facet.first_side; s < facet.first_side + facet.side_count; ++s)
-                around.push_back(layout.edge_at(s));
+            const Facet facet = layout.facet(layout.facet_at(side));
+            for (std::uint32_t i = 0; i < facet.side_count; ++i) visit(layout.edge_at(facet.first_side + i));
         }
-    }
-    model.expect(around.size());
-    for (const std::uint32_t e : around) model.prepare(e);
+    };
+    const auto known = static_cast<std::uint32_t>(model.edge_count());
+    std::size_t unknown = 0;
+    for (std::uint32_t e = 0; e < known; ++e)
+        if (model.point_count(e) > 0)
+            visit_around(e, [&](std::uint32_t near) { unknown += model.is_prepared(near) ? 0 : 1; });
+    if (unknown > known / 8) model.expect(unknown);  // it moves all to another place
+    for (std::uint32_t e = 0; e < known; ++e)
+        if (model.point_count(e) > 0) visit_around(e, [&](std::uint32_t near) { model.prepare(near); });
 }
 
 /// True if they do: no two blocks change what the same edge sees.

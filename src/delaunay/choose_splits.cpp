@@ -212,16 +212,50 @@ void SplitChooser::wait_for_open_edges(double work, const Context* context) {
     }
 }
 
+SplitPoint split_at(const Mesh& mesh, HalfedgeId h, double t) {
+    return {std::min(mesh.origin(h), mesh.target(h)), std::max(mesh.origin(h), mesh.target(h)), t};
+}
+
 std::vector<SplitPoint> SplitChooser::splits() const {
     const Mesh& mesh = model_.layout().marked().mesh();
     std::vector<SplitPoint> splits;
     splits.reserve(model_.point_count());
-    for (const PlacedPoint& point : placed_points(model_)) {
-        const HalfedgeId h = model_.layout().edge(point.edge).halfedge;
-        splits.push_back(
-            {std::min(mesh.origin(h), mesh.target(h)), std::max(mesh.origin(h), mesh.target(h)), point.at});
-    }
+    for (const PlacedPoint& point : placed_points(model_))
+        splits.push_back(split_at(mesh, model_.layout().edge(point.edge).halfedge, point.at));
     return splits;
+}
+
+std::vector<PlacedPoint> SplitChooser::take_baseline() {
+    for (PlacedPoint& point : baseline_) point.edge = model_.layout().edge(point.edge).halfedge.value();
+    search_.set_other({});
+    return std::move(baseline_);
+}
+
+SplitPlan SplitChooser::plan() const {
+    const Mesh& mesh = model_.layout().marked().mesh();
+    const auto name = [&](std::uint32_t e) { return mesh.edge(model_.layout().edge(e).halfedge); };
+    SplitPlan plan;
+    plan.splits = splits();
+    for (const std::uint32_t e : search_.open()) plan.open.push_back(name(e));
+    for (std::uint32_t e = 0; e < model_.edge_count(); ++e)
+        if (model_.is_distrusted(e)) plan.distrusted.push_back(name(e));
+    plan.is_compared = is_compared_;
+    return plan;
+}
+
+void SplitChooser::resume(const SplitPlan& plan) {
+    const std::vector<PlacedPoint> points = place(plan.splits);
+    for (const PlacedPoint& point : points) model_.prepare(point.edge);
+    std::vector<std::uint32_t> open;
+    for (const EdgeId e : plan.open) open.push_back(model_.edge_of(Mesh::halfedge(e)));
+    for (const std::uint32_t e : open) model_.prepare(e);
+    for (const EdgeId e : plan.distrusted) {
+        const std::uint32_t known = model_.edge_of(Mesh::halfedge(e));
+        model_.prepare(known);
+        model_.distrust(known);
+    }
+    put(points, open);
+    is_compared_ = plan.is_compared;
 }
 
 bool SplitChooser::mend(std::span<const std::array<VertexId, 2>> edges) {

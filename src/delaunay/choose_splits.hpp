@@ -22,6 +22,17 @@ struct SplitSearchOptions {
     bool is_greedy = false;  ///< for `construct_quickly` and nothing else
 };
 
+/// What a chooser knows, in words of the mesh.
+struct SplitPlan {
+    std::vector<SplitPoint> splits;  ///< ordered by edge and parameter
+    std::vector<EdgeId> open;        ///< edges that are not Delaunay with them
+    std::vector<EdgeId> distrusted;  ///< see SplitModel
+    bool is_compared = false;        ///< with the baseline, region by region
+};
+
+/// The point at t of the edge of h, from its smaller vertex.
+[[nodiscard]] SplitPoint split_at(const Mesh& mesh, HalfedgeId h, double t);
+
 /// Chooses points on physical edges after which, in exact arithmetic, all edges would be Delaunay. Deterministic.
 /// Memory: linear in the faces around the points. The mesh must not change meanwhile.
 class SplitChooser {
@@ -31,12 +42,19 @@ public:
 
     /// Another solution, to borrow from where the search finds none, and to compare with.
     void set_baseline(std::span<const SplitPoint> splits);
+    /// Takes the baseline away, in the words of the mesh but for what lies within facets. For large ones: there is no
+    /// room for a second copy as long as the model is there, so `edge` is the half-edge that names it.
+    [[nodiscard]] std::vector<PlacedPoint> take_baseline();
     /// Without a baseline some edges may stay as they are, not Delaunay.
     void search(const Context* context);
     /// Instead of `search`: in about the time of the shells, and less well. Edges may stay as they are.
     void construct_quickly();
     /// The points, ordered by edge and parameter.
     [[nodiscard]] std::vector<SplitPoint> splits() const;
+    /// All of what has been found, for another chooser of the same mesh to go on from. `splits` are those of
+    /// `splits()`.
+    [[nodiscard]] SplitPlan plan() const;
+    void resume(const SplitPlan& plan);
     /// These input edges, by their ends, have turned out not to be Delaunay: from now on they keep a distance from
     /// ties. False if that changes nothing.
     bool mend(std::span<const std::array<VertexId, 2>> edges);

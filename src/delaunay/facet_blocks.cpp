@@ -15,7 +15,7 @@ constexpr double preference = 2;
 struct Item {
     std::uint32_t facet = 0;
     std::uint32_t points = 0;
-    Vec3 at;
+    VertexId at;
 };
 
 class Cutter {
@@ -25,14 +25,14 @@ public:
           most_points_(most_points),
           round_(round) {
         const Mesh& mesh = layout_.marked().mesh();
+        items_.reserve(layout_.facet_count());
         for (std::uint32_t f = 0; f < layout_.facet_count(); ++f) {
             const Facet& facet = layout_.facet(f);
             Item item;
             item.facet = f;
             for (std::uint32_t s = facet.first_side; s < facet.first_side + facet.side_count; ++s)
                 item.points += model.point_count(layout_.edge_at(s));
-            if (facet.side_count > 0)
-                item.at = mesh.point(mesh.origin(layout_.edge(layout_.edge_at(facet.first_side)).halfedge));
+            if (facet.side_count > 0) item.at = mesh.origin(layout_.edge(layout_.edge_at(facet.first_side)).halfedge);
             items_.push_back(item);
         }
         result_.block_of.assign(items_.size(), FacetBlocks::none);
@@ -53,13 +53,18 @@ private:
         return sum / 2;
     }
 
+    [[nodiscard]] double coordinate(const Item& item, int axis) const {
+        return item.at.valid() ? layout_.marked().mesh().point(item.at)[axis] : 0;
+    }
+
     int longest_axis(std::span<const Item> items, int depth) const {
         int longest = 0;
         double extent = -1;
         for (int axis = 0; axis < 3; ++axis) {
             const auto [low, high] = std::minmax_element(
-                items.begin(), items.end(), [axis](const Item& a, const Item& b) { return a.at[axis] < b.at[axis]; });
-            const double size = (0.5 * high->at[axis] - 0.5 * low->at[axis]) *
+                items.begin(), items.end(),
+                [this, axis](const Item& a, const Item& b) { return coordinate(a, axis) < coordinate(b, axis); });
+            const double size = (0.5 * coordinate(*high, axis) - 0.5 * coordinate(*low, axis)) *
                                 (axis == (depth + round_) % 3 && round_ > 0 ? preference : 1);
             if (size <= extent) continue;
             extent = size;
@@ -80,8 +85,10 @@ private:
             return;
         }
         const int axis = longest_axis(items, depth);
-        std::sort(items.begin(), items.end(), [axis](const Item& a, const Item& b) {
-            return a.at[axis] != b.at[axis] ? a.at[axis] < b.at[axis] : a.facet < b.facet;
+        std::sort(items.begin(), items.end(), [this, axis](const Item& a, const Item& b) {
+            const double at_a = coordinate(a, axis);
+            const double at_b = coordinate(b, axis);
+            return at_a != at_b ? at_a < at_b : a.facet < b.facet;
         });
         const double share = cuts[static_cast<std::size_t>(round_) % cuts.size()];
         std::size_t below = 0;

@@ -215,11 +215,8 @@ void FacetLayout::add_side(HalfedgeId h, SideRecord record) {
     record.edge = name_edge(h);
     const auto s = static_cast<std::uint32_t>(records_.size());
     records_.push_back(record);
-    const Point2 along = side(s).along;
-    const double inverse = 1 / dot(along, along);
-    records_.back().inverse = inverse;
-    const Point2 apex = side(s).apex;
-    const bool usable = std::isfinite(inverse) && std::isfinite(apex.x) && apex.y > 0;
+    const Side made = side(s);
+    const bool usable = std::isfinite(1 / dot(made.along, made.along)) && std::isfinite(made.apex.x) && made.apex.y > 0;
     Edge& edge = edges_[record.edge];
     edge.side[forward ? 0 : 1] = s;
     edge.is_usable = edge.is_usable && usable;

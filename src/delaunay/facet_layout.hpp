@@ -116,7 +116,6 @@ private:
         std::uint8_t end = 0;
         std::uint8_t opposite = 0;
         bool single = true;
-        double inverse = 0;  ///< of the squared length of the edge
     };
 
     std::uint32_t name_edge(HalfedgeId h);
@@ -153,7 +152,7 @@ inline Side FacetLayout::side(std::uint32_t s) const {
     };
     side.start = point(record.start);
     side.along = point(record.end) - side.start;
-    side.x_row = record.inverse * side.along;
+    side.x_row = 1 / dot(side.along, side.along) * side.along;
     const bool forward = record.end == (record.start + 1) % 3;
     side.y_row = (forward ? 1.0 : -1.0) * Point2{-side.x_row.y, side.x_row.x};
     side.apex = side.to_frame(point(record.opposite));

@@ -3,6 +3,7 @@
 #include "base/sort_unique.hpp"
 #include "delaunay/choose_splits.hpp"
 #include "delaunay/probe_splits.hpp"
+#include "delaunay/split_planner.hpp"
 #include "delaunay/split_point.hpp"
 #include "delaunay/vertex_limit.hpp"
 
@@ -14,8 +15,8 @@
 namespace delmesh {
 namespace {
 
-/// Rounds of putting the points in and mending, in the model, what rounding breaks.
-constexpr int most_trials = 4;
+/// Rounds of mending, in the model, what rounding breaks.
+constexpr int most_mendings = 3;
 /// Where construction and shells together need more splits than these, shells alone are tried instead.
 constexpr std::size_t most_splits_per_edge = 12;
 constexpr std::size_t least_most_splits = 500;
@@ -47,6 +48,7 @@ struct Trial {
     Mesh mesh;
     MarkedMesh marked;
     RemeshReport report;
+    std::size_t planned = 0;  ///< splits
 };
 
 /// What the shells have come to.
@@ -73,12 +75,13 @@ std::vector<std::array<VertexId, 2>> input_edges(const Trial& trial, const std::
 class Contest {
 public:
     Contest(const MarkedMesh& marked, const RemeshOptions& options, const Context* context, const RefineStart& start,
-            const RemeshReport& report)
+            const RemeshReport& report, bool has_other_way)
         : marked_(marked),
           options_(options),
           context_(context),
           start_(start),
-          report_(report) {}
+          report_(report),
+          has_other_way_(has_other_way) {}
 
     TrialPointer run() {
         // Needles make shells explode; then what is found without them is all that is needed.
@@ -88,7 +91,7 @@ public:
             most_splits_ = few;
             TrialPointer without = better_of(std::move(best), few);
             most_splits_ = unlimited;
-            if (without->done() || without->cancelled()) return without;
+            if (without->done() || without->cancelled() || has_other_way_) return without;
             without.reset();
             best = by_shells(unlimited);
             if (!best->done() && !best->cancelled()) return by_closest_plan(std::move(best));
@@ -121,89 +124,122 @@ private:
 
     /// The mesh of the shells is not kept meanwhile: to make it again takes less than its memory is worth.
     TrialPointer better_of(TrialPointer by_shells_first, std::size_t most_splits) {
-        const Baseline shells{by_shells_first->report, by_shells_first->marked.take_provenance().splits};
+        Baseline shells{by_shells_first->report, {}};
+        if (shells.done()) shells.splits = by_shells_first->marked.take_provenance().splits;
         by_shells_first.reset();
         TrialPointer best = better_of(shells);
         return best ? std::move(best) : by_shells(most_splits);
     }
 
     /// None if that is the baseline.
-    TrialPointer better_of(const Baseline& shells) {
+    TrialPointer better_of(Baseline& shells) {
         if (TrialPointer trial = by_probes(shells)) return trial;
-        SplitChooser chooser(marked_, start_.bad, {static_cast<int>(options_.effort), options_.seed});
-        TrialPointer trial = by_search(chooser, shells);
-        if (misses_its_plan(*trial, chooser)) {
-            // Rounding broke what was found. It may leave alone what takes less searching.
-            for (const bool quick : {false, true}) {
-                if (trial->cancelled()) break;
-                SplitChooser simple(marked_, start_.bad, {0, options_.seed, quick});
-                TrialPointer other = by_search(simple, shells);
-                if (other->cancelled() || other->beats(trial->report)) trial = std::move(other);
-            }
+        most_by_plan_ = shells.done() ? 2 * shells.report.splits : unlimited;
+        SplitPlanner planner(marked_, start_.bad, {static_cast<int>(options_.effort), options_.seed}, shells.splits);
+        TrialPointer trial = by_plan(planner, planner.search(context_));
+        // Rounding broke what was found. It may leave alone what takes less searching.
+        for (const bool quick : {false, true}) {
+            if (!misses_its_plan(*trial) || trial->cancelled() || (quick && !shells.done())) break;
+            if (!shells.done() && !trial->done()) trial.reset();
+            SplitPlanner simple(marked_, start_.bad, {0, options_.seed, quick}, shells.splits);
+            TrialPointer other = by_plan(simple, simple.search(context_));
+            if (!trial || other->cancelled() || other->beats(trial->report)) trial = std::move(other);
         }
-        if (!shells.done() || trial->cancelled()) return trial;
+        if (trial->cancelled()) return trial;
+        if (!shells.done())
+            return trial->done() || has_other_way_ ? std::move(trial) : by_failed_plans(std::move(trial));
         // By now it is known what the points cost in truth: regions where the shells need fewer take these.
         TrialPointer second;
-        if (chooser.take_better_regions(trial->marked.splits())) second = by_plan(chooser);
+        if (auto plan = planner.take_better_regions(trial->marked.splits()))
+            second = by_plan(planner, std::move(*plan));
         if (second && second->cancelled()) return second;
         if (second && second->beats(trial->report)) trial = std::move(second);
         return trial->beats(shells.report) ? std::move(trial) : nullptr;
     }
 
-    TrialPointer by_search(SplitChooser& chooser, const Baseline& shells) {
-        if (shells.done()) chooser.set_baseline(shells.splits);
-        chooser.search(context_);
-        return by_plan(chooser);
+    [[nodiscard]] static bool misses_its_plan(const Trial& trial) {
+        return !trial.done() || trial.report.splits > trial.planned + trial.planned / 10 + 10;
     }
 
-    [[nodiscard]] static bool misses_its_plan(const Trial& trial, const SplitChooser& chooser) {
-        const std::size_t planned = chooser.splits().size();
-        return !trial.done() || trial.report.splits > planned + planned / 10 + 10;
-    }
-
-    TrialPointer by_plan(SplitChooser& chooser) {
-        const RemeshOptions options = with_at_most_splits(options_, marked_.mesh(), most_splits_);
-        for (int round = 1;; ++round) {
-            const std::vector<SplitPoint> plan = chooser.splits();
-            auto trial = std::make_unique<Trial>(marked_, report_, plan.size() + plan.size() / 8);
-            if (is_cancelled(context_)) {
-                trial->report.stop = StopReason::cancelled;
-                return trial;
-            }
-            std::vector<HalfedgeId> left = carry_out(trial->marked, options, context_, trial->report, start_, plan);
-            if (!left.empty() && trial->done() && round < most_trials && chooser.mend(input_edges(*trial, left)))
+    /// Stops early where the shells that finish it explode.
+    TrialPointer by_plan(SplitPlanner& planner, std::vector<SplitPoint> plan) {
+        constexpr std::size_t some = 10'000;
+        for (int mendings = most_mendings;;) {
+            const std::size_t most = most_by_plan_ != unlimited ? most_by_plan_ : plan.size() + plan.size() / 4 + some;
+            std::vector<HalfedgeId> left;
+            TrialPointer trial = carry_out_plan(plan, std::min(most, most_splits_), left);
+            if (!left.empty() && trial->done() && mendings > 0) {
+                const std::vector<std::array<VertexId, 2>> broken = input_edges(*trial, left);
+                trial.reset();  // to make room for the model
+                auto mended = planner.mend(broken);
+                mendings = mended ? mendings - 1 : 0;
+                if (mended) plan = std::move(*mended);
                 continue;
-            const std::size_t still_open = left.size();
-            if (trial->done()) refine_and_clean(trial->marked, options, context_, trial->report, std::move(left));
-            trial->report.splits = trial->marked.split_count();
-            if (trial->report.stop == StopReason::max_vertices && still_open < least_open_) {
-                least_open_ = still_open;
-                closest_plan_ = plan;
             }
+            const std::size_t still_open = left.size();
+            finish(*trial, std::min(most, most_splits_), std::move(left));
+            if (trial->report.stop == StopReason::max_vertices) failed_.push_back({still_open, std::move(plan)});
             return trial;
         }
     }
 
-    /// Where neither shells nor any plan ended within what was allowed: the best plan with all that the user allows.
-    TrialPointer by_closest_plan(TrialPointer shells) {
-        if (closest_plan_.empty()) return shells;
-        shells.reset();
-        auto trial = std::make_unique<Trial>(marked_, report_, closest_plan_.size());
-        std::vector<HalfedgeId> left =
-            carry_out(trial->marked, options_, context_, trial->report, start_, closest_plan_);
-        if (trial->done()) refine_and_clean(trial->marked, options_, context_, trial->report, std::move(left));
-        trial->report.splits = trial->marked.split_count();
+    TrialPointer carry_out_plan(const std::vector<SplitPoint>& plan, std::size_t most, std::vector<HalfedgeId>& left) {
+        auto trial = std::make_unique<Trial>(marked_, report_, plan.size() + plan.size() / 8);
+        trial->planned = plan.size();
+        const RemeshOptions options = with_at_most_splits(options_, marked_.mesh(), most);
+        if (is_cancelled(context_)) {
+            trial->report.stop = StopReason::cancelled;
+        } else {
+            left = carry_out(trial->marked, options, context_, trial->report, start_, plan);
+        }
         return trial;
     }
+
+    void finish(Trial& trial, std::size_t most, std::vector<HalfedgeId> left) {
+        const RemeshOptions options = with_at_most_splits(options_, marked_.mesh(), most);
+        if (trial.done()) refine_and_clean(trial.marked, options, context_, trial.report, std::move(left));
+        trial.report.splits = trial.marked.split_count();
+    }
+
+    /// Follows explosions to their end, which may come in time; the plan that leaves least to them first. `last` is
+    /// what is left of the last one.
+    TrialPointer by_failed_plans(TrialPointer last) {
+        std::sort(failed_.begin(), failed_.end(),
+                  [](const FailedPlan& a, const FailedPlan& b) { return a.open < b.open; });
+        for (const FailedPlan& failed : failed_) {
+            last.reset();
+            std::vector<HalfedgeId> left;
+            last = carry_out_plan(failed.plan, most_splits_, left);
+            finish(*last, most_splits_, std::move(left));
+            if (last->done() || last->cancelled()) break;
+        }
+        return last;
+    }
+
+    /// Where neither shells nor any plan ended within what was allowed: the best plan with all that the user allows.
+    TrialPointer by_closest_plan(TrialPointer shells) {
+        if (failed_.empty()) return shells;
+        shells.reset();
+        std::vector<HalfedgeId> left;
+        TrialPointer trial = carry_out_plan(failed_.front().plan, unlimited, left);
+        finish(*trial, unlimited, std::move(left));
+        return trial;
+    }
+
+    struct FailedPlan {
+        std::size_t open = 0;  ///< edges that it leaves to shells
+        std::vector<SplitPoint> plan;
+    };
 
     const MarkedMesh& marked_;
     const RemeshOptions& options_;
     const Context* context_;
     const RefineStart& start_;
     const RemeshReport& report_;
-    std::size_t most_splits_ = unlimited;  ///< of a plan that is carried out
-    std::size_t least_open_ = unlimited;   ///< edges that the closest plan leaves to shells
-    std::vector<SplitPoint> closest_plan_;
+    const bool has_other_way_;
+    std::size_t most_splits_ = unlimited;   ///< of a plan that is carried out
+    std::size_t most_by_plan_ = unlimited;  ///< the same, where the shells end
+    std::vector<FailedPlan> failed_;
 };
 
 /// Effort 0: shells finish what a quick construction leaves open. Alone they are run only for as long as they need
@@ -281,9 +317,9 @@ private:
 }  // namespace
 
 void preserve_with_fewest(MarkedMesh& marked, const RemeshOptions& options, const Context* context,
-                          RemeshReport& report, const RefineStart& start) {
+                          RemeshReport& report, const RefineStart& start, bool has_other_way) {
     if (options.effort == 0) return QuickContest(marked, options, context, start).run(report);
-    const TrialPointer best = Contest(marked, options, context, start, report).run();
+    const TrialPointer best = Contest(marked, options, context, start, report, has_other_way).run();
     report = std::move(best->report);
     marked.take(std::move(best->marked));
 }

@@ -6,8 +6,9 @@
 namespace delmesh {
 
 /// As `refine_and_clean` after `start`, but never with more splits. Fills the same of the report, and
-/// `splits_by_shells`.
+/// `splits_by_shells`. With another way to fall back on it stops, with `max_vertices`, as soon as the number of splits
+/// explodes whatever is tried.
 void preserve_with_fewest(MarkedMesh& marked, const RemeshOptions& options, const Context* context,
-                          RemeshReport& report, const RefineStart& start);
+                          RemeshReport& report, const RefineStart& start, bool has_other_way = false);
 
 }  // namespace delmesh

@@ -63,7 +63,8 @@ GrowthEstimate estimate_growth(const Mesh& mesh, std::span<const EdgeId> bad, co
 }
 
 /// Algorithm 1 on a mesh without zero-area faces, with a flat tolerance that is given.
-void preserve_surface(Mesh& mesh, const RemeshOptions& options, const Context* context, RemeshReport& report) {
+void preserve_surface(Mesh& mesh, const RemeshOptions& options, const Context* context, RemeshReport& report,
+                      bool has_other_way = false) {
     const UnitFrame frame = unit_frame(mesh);
     const double tolerance = options.flat_tolerance_rel.number * frame.diagonal;
     Classified classified = classify(mesh, frame, tolerance, context);
@@ -78,7 +79,7 @@ void preserve_surface(Mesh& mesh, const RemeshOptions& options, const Context* c
         report.lower_bound_strong = strong_lower_bound(marked, start.bad, bound, context);
     }
     if (options.placement == SplitPlacement::fewest && !start.bad.empty()) {
-        preserve_with_fewest(marked, options, context, report, start);
+        preserve_with_fewest(marked, options, context, report, start, has_other_way);
     } else {
         marked.reserve_splits(6 * start.bad.size());
         refine_and_clean(marked, options, context, report, std::move(start.queue));
@@ -115,14 +116,21 @@ void preserve_automatically(Mesh& mesh, const RemeshOptions& options, const Cont
             options.on_growth(growth);
         };
     }
-    Mesh flattened = mesh;
-    RemeshReport if_flat = report;
+    // Explosions take time and memory: they are followed to their end only if the other way fails as well.
+    const Mesh original = mesh;
+    const RemeshReport before = report;
+    const auto is_over = [&] { return report.stop == StopReason::done || report.stop == StopReason::cancelled; };
+    const auto start_again = [&] {
+        mesh = original;
+        report = before;
+    };
+    preserve_surface(mesh, exact, context, report, true);
+    if (is_over()) return;
+    start_again();
+    preserve_surface(mesh, within(options, stored / frame.diagonal), context, report);
+    if (is_over()) return;
+    start_again();
     preserve_surface(mesh, exact, context, report);
-    if (report.stop == StopReason::done || report.stop == StopReason::cancelled) return;
-    preserve_surface(flattened, within(options, stored / frame.diagonal), context, if_flat);
-    if (if_flat.stop != StopReason::done) return;
-    mesh = std::move(flattened);
-    report = std::move(if_flat);
 }
 
 }  // namespace

@@ -85,7 +85,7 @@ void SplitModel::make(std::uint32_t e) {
 }
 
 void SplitModel::prepare(std::uint32_t e) {
-    if (e < states_.size() && states_[e].prepared) return;
+    if (is_prepared(e)) return;
     make(e);
     const std::array<std::uint32_t, 2> sides = layout_.edge(e).side;  // a copy, as the layout grows
     for (const std::uint32_t s : sides) {

@@ -40,6 +40,7 @@ public:
     std::uint32_t edge_of(HalfedgeId h) { return layout_.edge_of(h); }
     /// Makes everything known that a change of this edge's points may touch.
     void prepare(std::uint32_t e);
+    [[nodiscard]] bool is_prepared(std::uint32_t e) const { return e < states_.size() && states_[e].prepared; }
     /// Makes room for preparing so many edges, see FacetLayout::expect.
     void expect(std::size_t edges);
     /// Points may be put on this edge.

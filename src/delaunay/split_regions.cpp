@@ -53,11 +53,11 @@ private:
 };
 
 struct Balance {
-    std::size_t ours = 0;
-    std::size_t theirs = 0;
-    bool is_open = false;
+    static constexpr std::uint32_t open = ~std::uint32_t{0};
+    std::uint32_t ours = 0;  ///< or `open`
+    std::uint32_t theirs = 0;
 
-    [[nodiscard]] bool is_worse() const { return is_open || ours > theirs; }
+    [[nodiscard]] bool is_worse() const { return ours > theirs; }
 };
 
 }  // namespace
@@ -76,7 +76,7 @@ std::size_t take_better_regions(SplitModel& model, std::span<const std::uint32_t
     std::vector<Balance> balance(model.layout().facet_count());
     for (const PlacedPoint& point : ours) ++balance[regions.of(point.edge)].ours;
     for (const PlacedPoint& point : theirs) ++balance[regions.of(point.edge)].theirs;
-    for (const std::uint32_t e : open) balance[regions.of(e)].is_open = true;
+    for (const std::uint32_t e : open) balance[regions.of(e)].ours = Balance::open;
     const auto worse = [&](std::uint32_t e) { return balance[regions.of(e)].is_worse(); };
 
     std::vector<std::uint32_t> to_clear;
