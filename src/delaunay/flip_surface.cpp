@@ -131,13 +131,16 @@ Attempt attempt(const Mesh& mesh, Way way, std::size_t most_splits, const Remesh
     return result;
 }
 
-/// The better of the two ways, the published one if neither ends.
+/// The better of the two ways, the patient one if neither ends: what has exploded is not kept meanwhile.
 Attempt better_way(const Mesh& mesh, std::size_t most_splits, const RemeshOptions& options, const Context* context,
                    const RemeshReport& so_far) {
     Attempt published = attempt(mesh, Way::published, most_splits, options, context, so_far);
     if (published.cancelled() || (published.done() && published.report.splits == 0)) return published;
-    const std::size_t enough = published.done() ? published.report.splits - 1 : most_splits;
-    Attempt patient = attempt(mesh, Way::patient, enough, options, context, so_far);
+    if (!published.done()) {
+        published = {};
+        return attempt(mesh, Way::patient, most_splits, options, context, so_far);
+    }
+    Attempt patient = attempt(mesh, Way::patient, published.report.splits - 1, options, context, so_far);
     return patient.done() || patient.cancelled() ? std::move(patient) : std::move(published);
 }
 
@@ -152,8 +155,10 @@ void flip_surface(Mesh& mesh, const RemeshOptions& options, const Context* conte
     constexpr std::size_t many = std::numeric_limits<std::uint32_t>::max();
     Attempt best = better_way(mesh, few, options, context, report);
     const bool limited = options.max_vertices != 0 && options.max_vertices <= mesh.vertex_count() + few;
-    if (best.report.stop == StopReason::max_vertices && !limited)
+    if (best.report.stop == StopReason::max_vertices && !limited) {
+        best = {};
         best = better_way(mesh, many, options, context, report);
+    }
     mesh = std::move(best.mesh);
     report = std::move(best.report);
 }
