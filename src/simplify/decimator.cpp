@@ -94,13 +94,15 @@ std::size_t Decimator::refit(const RefitTuning& tuning, const Context* context) 
     const auto moved = [this](VertexId v, const Vec3& w) { move_history(v, w); };
     Refitter refitter(mesh_, *samples_, placer_, scale_, settle, moved);
     const std::size_t moves = refitter.run(tuning, allowed2(), context);
+    // Large flat parts say nothing about what is usual elsewhere.
+    constexpr double usually_busy = 0.8;
+    quiet_ = std::max(1.0, usually_busy / samples_->busy_part());
     start_afresh();
     return moves;
 }
 
 void Decimator::close_gaps(Numbering& numbering) {
-    for (std::size_t v = 0; v < mesh_.vertex_count(); ++v)
-        if (mesh_.is_live(VertexId(v)) && !mesh_.halfedge(VertexId(v)).valid()) remove_isolated(mesh_, VertexId(v));
+    drop_isolated(mesh_);
     const CompactMap map = in_present_order(mesh_);
     numbering.renumber(mesh_, map);
     follow(map);
@@ -138,8 +140,8 @@ std::vector<Id> fill_gaps(const Mesh& mesh, std::size_t all, std::size_t count) 
 
 void Decimator::reduce(std::size_t vertices, const Context* context) {
     const auto settle = [this](const Vec3& w) { return settled(w); };
-    const auto moved = [this](VertexId v, const Vec3& w) { move_history(v, w); };
     Polisher polisher(mesh_, *samples_, placer_, weights_, tuning_, scale_, settle);
+    const auto moved = [&](VertexId v, const Vec3& w) { move_history(v, w), polisher.touch(v); };
     Refitter refitter(mesh_, *samples_, placer_, scale_, settle, moved);
     while (vertices_ > vertices && !is_cancelled(context)) {
         const std::size_t wanted = std::min(vertices_ - vertices, vertices / 25 + 1);
@@ -158,13 +160,14 @@ std::size_t Decimator::polish(const Context* context) {
     const std::size_t vertices = mesh_.vertex_count();
     const std::size_t faces = mesh_.face_count();
     const auto settle = [this](const Vec3& w) { return settled(w); };
-    const auto moved = [this](VertexId v, const Vec3& w) { move_history(v, w); };
     Polisher polisher(mesh_, *samples_, placer_, weights_, tuning_, scale_, settle);
+    const auto moved = [&](VertexId v, const Vec3& w) { move_history(v, w), polisher.touch(v); };
     Refitter refitter(mesh_, *samples_, placer_, scale_, settle, moved);
     std::size_t moves = 0;
+    const std::size_t most = std::clamp(tuning_.polish_work / vertices, tuning_.polish_few, tuning_.polish_most);
     for (int round = 0; round < tuning_.polish_rounds && !is_cancelled(context); ++round) {
         const double before = samples_->mean2();
-        moves += polisher.exchange(tuning_.polish_most, allowed2(), context);
+        moves += polisher.exchange(most, tuning_.polish_reach2 * allowed2(), context);
         moves += refitter.run(nearby, allowed2(), polisher.changed(), context);
         refresh_weights();
         if (!(samples_->mean2() < (1 - tuning_.polish_gain) * before)) break;
@@ -234,7 +237,7 @@ void Decimator::guard_for(std::size_t vertices) {
 
 /// The largest squared distance that a collapse may leave between the samples and the surface.
 double Decimator::allowed2() const {
-    return std::max({tuning_.reach * tuning_.reach * samples_->mean2(), raised2_, rounding2});
+    return std::max({tuning_.reach * tuning_.reach * samples_->mean2() * quiet_, raised2_, rounding2});
 }
 
 void Decimator::park(HalfedgeId h, double distance2) {

@@ -134,6 +134,7 @@ private:
     std::optional<SurfaceSamples> samples_;
     std::size_t guarded_ = 0;
     std::size_t retried_ = 0;  ///< collapses made when all edges had another turn
+    double quiet_ = 1;         ///< how much larger the mean square is where there is an error at all
     double raised2_ = 0;       ///< allowed because nothing else was left
     Star star_;
     DecimatorCounts counts_;

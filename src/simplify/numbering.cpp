@@ -1,5 +1,6 @@
 #include "simplify/numbering.hpp"
 
+#include "delmesh/mesh/edits.hpp"
 #include "mesh/bounding_box.hpp"
 
 #include <algorithm>
@@ -108,6 +109,11 @@ CompactMap in_order_of_place(const Mesh& mesh, double scale) {
     for (std::size_t i = 0; i < order.size(); ++i) map.vertex[order[i].second.index()] = VertexId(i);
     map.face = rank_faces(mesh, map.vertex);
     return map;
+}
+
+void drop_isolated(Mesh& mesh) {
+    for (std::size_t v = 0; v < mesh.vertex_count(); ++v)
+        if (mesh.is_live(VertexId(v)) && !mesh.halfedge(VertexId(v)).valid()) remove_isolated(mesh, VertexId(v));
 }
 
 }  // namespace delmesh

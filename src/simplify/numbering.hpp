@@ -32,6 +32,9 @@ private:
     std::size_t face_names_;
 };
 
+/// Removes isolated vertices.
+void drop_isolated(Mesh& mesh);
+
 /// Ids from 0 on for what lives, by place along a curve that fills space: what is close by mostly gets close ids.
 /// Source: Morton 1966.
 [[nodiscard]] CompactMap in_order_of_place(const Mesh& mesh, double scale);

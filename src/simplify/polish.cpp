@@ -1,5 +1,7 @@
 #include "simplify/polish.hpp"
 
+#include "simplify/walk.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,7 +12,7 @@ namespace {
 /// A vertex goes elsewhere if it costs less than this part of what it brings there.
 constexpr double margin = 0.8;
 /// The part of the error of two faces that a vertex between them takes away, as a rule.
-constexpr double usual_gain = 0.5;
+constexpr double usual_gain = 0.75;
 /// So many places in a row where no vertex is worth more than elsewhere end the exchange.
 constexpr int patience = 200;
 /// So many edges are measured for each vertex that is to go.
@@ -48,16 +50,38 @@ bool Polisher::is_inside(HalfedgeId h) const {
     return mesh_.origin(h).valid() && !mesh_.is_boundary(h);
 }
 
-/// The faces have changed.
+/// The faces have changed, maybe for a while only.
 void Polisher::refresh(std::span<const FaceId> faces) {
     weights_.resize();
+    for (const FaceId f : faces)
+        for (const VertexId v : mesh_.corners().subspan(3 * f.index(), 3)) weights_.refresh(v);
+}
+
+/// The faces have changed for good.
+void Polisher::mark(std::span<const FaceId> faces) {
     changed_.resize(mesh_.vertex_count());
     for (const FaceId f : faces) {
+        if (!mesh_.is_live(f)) continue;
         for (const VertexId v : mesh_.corners().subspan(3 * f.index(), 3)) {
-            weights_.refresh(v);
             changed_[v.index()] = true;
+            touch(v);
         }
     }
+}
+
+void Polisher::touch(VertexId v) {
+    touched_.resize(mesh_.vertex_count(), true);
+    touched_[v.index()] = true;
+}
+
+bool Polisher::is_hopeless(HalfedgeId h) const {
+    if (!hopeless_[h.index()]) return false;
+    bool is_touched = false;
+    for (const VertexId v : {mesh_.origin(h), mesh_.target(h)})
+        each_outgoing(mesh_, v, [&](HalfedgeId out) {
+            is_touched = is_touched || touched_[v.index()] || touched_[mesh_.target(out).index()];
+        });
+    return !is_touched;
 }
 
 bool Polisher::try_collapse(HalfedgeId h, const TrialLimits& limits) {
@@ -82,6 +106,7 @@ void Polisher::keep_collapse() {
     weights_.set_history(kept_, merged);
     worst_error2_ = std::max(worst_error2_, mean_square(merged));
     refresh(collapse_.faces());
+    mark(collapse_.faces());
 }
 
 void Polisher::rank_errors(std::size_t most) {
@@ -111,13 +136,19 @@ void Polisher::rank_collapses(std::size_t most) {
 void Polisher::measure_collapses(TrialLimits limits, std::size_t wanted) {
     std::size_t kept = 0;
     double worst = std::numeric_limits<double>::min();
+    hopeless_.resize(mesh_.halfedge_count());
+    touched_.resize(mesh_.vertex_count(), true);
     for (const Chance chance : collapses_) {
-        if (!try_collapse(chance.edge, limits)) continue;
+        if (is_hopeless(chance.edge)) continue;
+        const bool ok = try_collapse(chance.edge, limits);
+        hopeless_[chance.edge.index()] = !ok;
+        if (!ok) continue;
         collapses_[kept++] = {collapse_.change(), chance.edge};
         collapse_.undo();
         worst = std::max(worst, collapses_[kept - 1].value);
         if (kept == wanted) limits.most = std::min(limits.most, worst);
     }
+    touched_.assign(mesh_.vertex_count(), false);
     collapses_.resize(kept);
     std::sort(collapses_.begin(), collapses_.end(), smaller);
     next_collapse_ = 0;
@@ -125,6 +156,7 @@ void Polisher::measure_collapses(TrialLimits limits, std::size_t wanted) {
 
 std::size_t Polisher::reduce(std::size_t count, double allowed2, const Context* context) {
     changed_.assign(mesh_.vertex_count(), false);
+    hopeless_.clear();  // prices rise on the way
     rank_collapses(choice * count);
     measure_collapses({std::numeric_limits<double>::max(), allowed2}, count);
     std::size_t done = 0;
@@ -142,13 +174,14 @@ std::size_t Polisher::reduce(std::size_t count, double allowed2, const Context* 
 /// A new vertex on the edge of h, for one that costs less.
 bool Polisher::exchange_at(HalfedgeId h, double allowed2) {
     const double least = collapses_[next_collapse_].value / margin;
-    if (!insertion_.insert(h, {std::min(0.0, -least), allowed2})) return false;
+    if (!insertion_.insert(h, {std::min(0.0, -least), allowed2, true})) return false;
     const double most = -margin * insertion_.change();
     refresh(insertion_.faces());
     while (next_collapse_ < collapses_.size() && collapses_[next_collapse_].value < most) {
         const HalfedgeId c = collapses_[next_collapse_++].edge;
-        if (!is_inside(c) || !try_collapse(c, {most, allowed2})) continue;
+        if (!is_inside(c) || !try_collapse(c, {most, allowed2, true})) continue;
         insertion_.keep();
+        mark(insertion_.faces());
         keep_collapse();
         return true;
     }
@@ -159,10 +192,10 @@ bool Polisher::exchange_at(HalfedgeId h, double allowed2) {
 
 std::size_t Polisher::exchange(std::size_t most, double allowed2, const Context* context) {
     changed_.assign(mesh_.vertex_count(), false);
-    rank_errors(std::min(most, mesh_.vertex_count() / 2));
+    rank_errors(std::min(most, mesh_.vertex_count()));
     if (errors_.empty()) return 0;
-    rank_collapses(std::min(most, mesh_.vertex_count() / 2));
-    measure_collapses({margin * usual_gain * errors_[errors_.size() / 20].value, allowed2}, collapses_.size());
+    rank_collapses(std::min(most, mesh_.vertex_count()));
+    measure_collapses({margin * usual_gain * errors_[errors_.size() / 20].value, allowed2, true}, collapses_.size());
     std::size_t exchanged = 0;
     int failed = 0;
     for (const Chance& chance : errors_) {

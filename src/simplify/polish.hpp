@@ -31,6 +31,8 @@ public:
     /// vertices and faces stay, not their ids. Tries `most` changes of each kind at most. Returns the number of
     /// exchanges.
     std::size_t exchange(std::size_t most, double allowed2, const Context* context);
+    /// v has been moved by somebody else.
+    void touch(VertexId v);
     /// As `SimplifyReport::quadric_error` of what was merged, but squared, local unit.
     [[nodiscard]] double worst_error2() const { return worst_error2_; }
     /// The vertices around which the last call of one of those has changed something.
@@ -43,6 +45,8 @@ private:
     };
     [[nodiscard]] bool is_inside(HalfedgeId h) const;
     void refresh(std::span<const FaceId> faces);
+    void mark(std::span<const FaceId> faces);
+    [[nodiscard]] bool is_hopeless(HalfedgeId h) const;
     bool try_collapse(HalfedgeId h, const TrialLimits& limits);
     void keep_collapse();
     bool exchange_at(HalfedgeId h, double allowed2);
@@ -66,6 +70,8 @@ private:
     std::vector<Chance> collapses_;  ///< by what they add to the sum, smallest first
     std::size_t next_collapse_ = 0;
     std::vector<bool> changed_;
+    std::vector<bool> hopeless_;  ///< per half-edge: its collapse was too dear when it was measured last ...
+    std::vector<bool> touched_;   ///< ... and per vertex: something has changed since
 };
 
 }  // namespace delmesh

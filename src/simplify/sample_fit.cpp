@@ -2,16 +2,27 @@
 
 #include "simplify/triangle_point.hpp"
 
+#include <vector>
+
 namespace delmesh {
 
 bool fit_to_samples(const Star& star, const SurfaceSamples& samples, const Vec3& centre, double regular,
                     EdgeCost& cost) {
     cost = {};
+    struct Plane {
+        Vec3 normal;
+        double length2 = 0;
+    };
+    thread_local std::vector<Plane> planes;
+    planes.resize(star.face_count());
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        planes[i].normal = cross(star.ring[i].point - centre, star.ring[star.after(i)].point - centre);
+        planes[i].length2 = squared_norm(planes[i].normal);
+    }
     for (const SurfaceSamples::Member& m : samples.members()) {
         const Vec3& b = star.ring[m.face].point;
         const Vec3& c = star.ring[star.after(m.face)].point;
-        const Vec3 normal = cross(b - centre, c - centre);
-        const double n2 = squared_norm(normal);
+        const auto& [normal, n2] = planes[m.face];
         if (!(n2 > 0)) continue;
         const TrianglePoint p = nearest_on_triangle(m.point, centre, b, c);
         const Vec3 beside = b * p.weights[1] + c * p.weights[2];

@@ -18,6 +18,7 @@ SurfaceSamples::SurfaceSamples(const Mesh& mesh, std::size_t count, double scale
     const std::size_t vertices = std::min(count, mesh.vertex_count());
     const std::size_t all = vertices + mesh.face_count();
     const std::size_t stride = std::max<std::size_t>(1, all / std::max<std::size_t>(1, most));
+    stride_ = static_cast<double>(stride);
     samples_.reserve(all / stride + 2);
     for (std::size_t i = 0; i < vertices; i += stride) {
         const VertexId v(i);
@@ -192,6 +193,14 @@ double SurfaceSamples::error(FaceId f) const {
     return sum;
 }
 
+double SurfaceSamples::busy_part() const {
+    const double least = 0.01 * mean2();
+    double busy = 0;
+    for (const Sample& s : samples_)
+        if (static_cast<double>(s.distance2) > least) busy += static_cast<double>(s.weight);
+    return weight_ > 0 && busy > 0 ? busy / weight_ : 1;
+}
+
 void SurfaceSamples::prepare(const Star& star, const Vec3& w) {
     const std::size_t size = star.ring.size();
     spokes_.resize(size);
@@ -266,14 +275,26 @@ SampleError SurfaceSamples::measure(const Star& star, const Vec3& w) {
 }
 
 double SurfaceSamples::measure_backward(const Star& star, const Vec3& w) const {
-    double worst = height2(w);
+    double worst = distance2_to_surface(w);
     for (std::size_t i = 0; i < star.face_count(); ++i)
-        worst = std::max(worst, height2((w + star.ring[i].point + star.ring[star.after(i)].point) * (1.0 / 3)));
+        worst = std::max(worst,
+                         distance2_to_surface((w + star.ring[i].point + star.ring[star.after(i)].point) * (1.0 / 3)));
     return worst;
 }
 
-/// The squared height of x over the tangent plane of the nearest sample.
-double SurfaceSamples::height2(const Vec3& x) const {
+/// From the surface around the sample, a disk in its tangent plane about as large as what it stands for.
+double SurfaceSamples::distance2_beyond(const Sample& sample, const Vec3& away) const {
+    constexpr double disk = 1.2;
+    const double height = dot(away, Vec3{sample.normal[0], sample.normal[1], sample.normal[2]});
+    const double height2 = height * height;
+    const double radius2 = disk * stride_ * static_cast<double>(sample.weight);
+    const double aside2 = squared_norm(away) - height2;
+    if (!(aside2 > radius2)) return height2;
+    const double beyond = std::sqrt(aside2) - std::sqrt(radius2);
+    return height2 + beyond * beyond;
+}
+
+double SurfaceSamples::distance2_to_surface(const Vec3& x) const {
     double best = -1;
     std::uint32_t nearest = none;
     for (const Member& m : members_) {
@@ -283,9 +304,31 @@ double SurfaceSamples::height2(const Vec3& x) const {
         nearest = static_cast<std::uint32_t>(&m - members_.data());
     }
     if (nearest == none) return 0;
-    const std::array<float, 3>& n = samples_[members_[nearest].sample].normal;
-    const double height = dot(x - members_[nearest].point, Vec3{n[0], n[1], n[2]});
-    return height * height;
+    return distance2_beyond(samples_[members_[nearest].sample], x - members_[nearest].point);
+}
+
+double SurfaceSamples::measure_backward(const Mesh& mesh, double scale, std::span<const FaceId> faces,
+                                        std::span<const Place> places, VertexId except) const {
+    double worst = 0;
+    for (const FaceId f : faces) {
+        const HalfedgeId h = Mesh::halfedge(f);
+        const std::array<VertexId, 3> corner{mesh.origin(h), mesh.target(h), mesh.apex(h)};
+        if (std::find(corner.begin(), corner.end(), except) != corner.end()) continue;
+        const Frame frame{scale, 1 / scale, mesh.point(corner[0])};
+        const Vec3 middle = (frame.to_local(mesh.point(corner[1])) + frame.to_local(mesh.point(corner[2]))) * (1.0 / 3);
+        double best = std::numeric_limits<double>::infinity();
+        const Sample* nearest = nullptr;
+        for (const Place& place : places) {
+            const Sample& sample = samples_[place.sample];
+            const double distance2 = squared_norm(middle - frame.to_local(sample.point));
+            if (!(distance2 < best)) continue;
+            best = distance2;
+            nearest = &sample;
+        }
+        if (nearest != nullptr)
+            worst = std::max(worst, distance2_beyond(*nearest, middle - frame.to_local(nearest->point)));
+    }
+    return worst;
 }
 
 void SurfaceSamples::commit(const Star& star) {

@@ -15,7 +15,7 @@ namespace delmesh {
 struct SampleError {
     double sum = 0;       ///< over the samples, times their weights
     double forward = 0;   ///< the largest one from a sample to the star
-    double backward = 0;  ///< the largest one from a point of the star to the plane of the nearest sample
+    double backward = 0;  ///< the largest one from a point of the star to the surface around the nearest sample
 
     [[nodiscard]] double worst() const { return forward > backward ? forward : backward; }
 };
@@ -69,6 +69,10 @@ public:
     /// exceed `most`.
     SampleError find_places(const Mesh& mesh, double scale, std::span<const FaceId> faces, double most,
                             std::vector<Place>& places);
+    /// The largest squared distance of the middle of a face from the nearest of the samples' surfaces. Faces at
+    /// `except` are left out.
+    [[nodiscard]] double measure_backward(const Mesh& mesh, double scale, std::span<const FaceId> faces,
+                                          std::span<const Place> places, VertexId except) const;
     /// All samples of these faces now are there.
     void put(std::span<const FaceId> faces, std::span<const Place> places);
     [[nodiscard]] const Vec3& point(const Place& place) const { return samples_[place.sample].point; }
@@ -77,6 +81,8 @@ public:
     [[nodiscard]] double error(FaceId f) const;
     [[nodiscard]] double sum() const { return sum_; }
 
+    /// The part of the surface where there is an error at all: more than a tenth of the root mean square.
+    [[nodiscard]] double busy_part() const;
     /// The mean squared distance of all samples.
     [[nodiscard]] double mean2() const { return weight_ > 0 && sum_ > 0 ? sum_ / weight_ : 0; }
 
@@ -100,10 +106,12 @@ private:
     [[nodiscard]] static FaceId find_nearest(const Mesh& mesh, double scale, VertexId v, Sample& sample);
     void prepare(const Star& star, const Vec3& w);
     void attach(Member& member, std::size_t faces, const Vec3& from_centre) const;
-    [[nodiscard]] double height2(const Vec3& x) const;
+    [[nodiscard]] double distance2_to_surface(const Vec3& x) const;
+    [[nodiscard]] double distance2_beyond(const Sample& sample, const Vec3& away) const;
 
     double sum_ = 0;
     double weight_ = 0;
+    double stride_ = 1;  ///< one of so many is followed
     std::vector<Sample> samples_;
     std::vector<VertexId> near_;        ///< per sample: a vertex close to it at the start
     std::vector<std::uint32_t> first_;  ///< per face

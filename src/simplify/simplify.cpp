@@ -30,7 +30,7 @@ constexpr std::uint32_t hub = 1000;
 
 /// What is given to the user is worth more than what is passed on the way.
 RefitTuning tuning_at_level(std::size_t vertices) {
-    return {.rounds = vertices < many ? 6 : 4, .least_gain = 0.002};
+    return {.rounds = vertices < many ? 6 : 4, .regular = 1e-6, .least_gain = 0.002};
 }
 constexpr RefitTuning before_polish{.rounds = 2, .least_gain = 0.002};
 

@@ -75,6 +75,10 @@ bool is_large_and_noisy(const Mesh& mesh) {
     return sharp > edges / 4;
 }
 
+double wider(double angle_deg) {
+    return angle_deg < wider_angle_deg ? wider_angle_deg : 180;
+}
+
 /// Sharper edges than asked for are flipped where keeping them needs too many vertices.
 Remeshed with_wider_angles(const Mesh& mesh, RemeshOptions options, double& angle_deg, const Context* context) {
     for (;;) {
@@ -82,7 +86,7 @@ Remeshed with_wider_angles(const Mesh& mesh, RemeshOptions options, double& angl
         Remeshed result = with_few_points(mesh, options, context);
         if (result.done() || result.cancelled() || options.mode != RemeshMode::feature || angle_deg >= 180)
             return result;
-        options.feature_angle_deg = angle_deg < wider_angle_deg ? wider_angle_deg : 180;
+        options.feature_angle_deg = wider(angle_deg);
     }
 }
 
@@ -96,11 +100,6 @@ void thin_out(Mesh& mesh, Tuning tuning, Precision precision, std::size_t vertic
 }
 
 }  // namespace
-
-void drop_isolated(Mesh& mesh) {
-    for (std::size_t v = 0; v < mesh.vertex_count(); ++v)
-        if (mesh.is_live(VertexId(v)) && !mesh.halfedge(VertexId(v)).valid()) remove_isolated(mesh, VertexId(v));
-}
 
 bool make_start_delaunay(Mesh& mesh, const SimplifyOptions& options, const Tuning& tuning, const StartLimits& limits,
                          SimplifyReport& report, const Context* context) {
@@ -120,6 +119,11 @@ bool make_start_delaunay(Mesh& mesh, const SimplifyOptions& options, const Tunin
     const bool may_thin = limits.may_thin && thin_from * limits.vertices < vertices;
     if (first.cancelled() || (first.done() && (first.report.splits <= vertices || !may_thin)))
         return take(std::move(first), how.feature_angle_deg, 0);
+    if (!may_thin) {  // the same angle would fail again
+        if (how.mode != RemeshMode::feature || how.feature_angle_deg >= 180)
+            return take(std::move(first), how.feature_angle_deg, 0);
+        how.feature_angle_deg = wider(how.feature_angle_deg);
+    }
     if (!first.done()) first.mesh = {};
 
     if (may_thin) thin_out(mesh, tuning, how.precision, thin_from * limits.vertices, context);

@@ -18,7 +18,4 @@ struct StartLimits {
 bool make_start_delaunay(Mesh& mesh, const SimplifyOptions& options, const Tuning& tuning, const StartLimits& limits,
                          SimplifyReport& report, const Context* context);
 
-/// Removes isolated vertices.
-void drop_isolated(Mesh& mesh);
-
 }  // namespace delmesh

@@ -4,6 +4,7 @@
 #include "exact/inline.hpp"
 #include "simplify/diagonal.hpp"
 #include "simplify/sample_fit.hpp"
+#include "simplify/walk.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -74,26 +75,57 @@ void Trial::fit(VertexId v, double allowed2) {
         if (!place) return;
         const Vec3 w = settle_(star_.frame.to_mesh(place->point));
         if (w == mesh_.point(v) || !keeps_delaunay(mesh_, star_, w)) return;
-        SampleError before = samples_.present();
-        before.backward = samples_.measure_backward(star_, {});
-        const SampleError after = samples_.measure(star_, star_.frame.to_local(w));
-        if (!(after.sum < (1 - least_gain) * before.sum) || after.worst() > std::max(before.worst(), allowed2)) return;
+        const Vec3 there = star_.frame.to_local(w);
+        const double most = std::max(samples_.present().forward, allowed2);
+        SampleError after = samples_.measure_forward(star_, there);
+        if (!(after.sum < (1 - least_gain) * samples_.present().sum)) return;
+        after.backward = samples_.measure_backward(star_, there);
+        if (after.worst() > most && after.worst() > std::max(most, samples_.measure_backward(star_, {}))) return;
         log_.set_point(v, w);
         samples_.commit(star_);
     }
 }
 
-/// From the samples of the changed faces to those, and from the star of v to the samples.
+/// The faces at the ring have samples that may move as well.
+void Trial::take_faces_around() {
+    const std::size_t known = changed_.size();
+    for (const VertexId w : ring_)
+        each_outgoing(mesh_, w, [&](HalfedgeId h) {
+            const FaceId f = Mesh::face(h);
+            const auto end = changed_.begin() + static_cast<std::ptrdiff_t>(known);
+            if (!std::binary_search(changed_.begin(), end, f)) changed_.push_back(f);
+        });
+    const auto added = changed_.begin() + static_cast<std::ptrdiff_t>(known);
+    std::sort(added, changed_.end());
+    changed_.erase(std::unique(added, changed_.end()), changed_.end());
+    const std::span<const FaceId> faces = std::span(changed_).subspan(known);
+    living_.insert(living_.end(), faces.begin(), faces.end());
+    samples_.gather(faces, beside_);
+    before_.insert(before_.end(), beside_.begin(), beside_.end());
+}
+
+void Trial::fit_around(VertexId v, double allowed2) {
+    ring_.clear();
+    each_outgoing(mesh_, v, [&](HalfedgeId h) { ring_.push_back(mesh_.target(h)); });
+    take_faces_around();
+    for (const VertexId w : ring_)
+        if (!mesh_.is_boundary(w)) fit(w, allowed2);
+    fit(v, allowed2);
+}
+
+/// From the samples of the changed faces to those, and back.
 double Trial::worst_around(VertexId v) {
     gather(mesh_, v, scale_, star_);
     samples_.gather(star_);
     samples_.gather(living_, after_);
-    return std::max(samples_.measure_backward(star_, {}), sum_up(samples_, after_).forward);
+    const double flipped = samples_.measure_backward(mesh_, scale_, living_, after_, v);
+    return std::max({samples_.measure_backward(star_, {}), flipped, sum_up(samples_, after_).forward});
 }
 
 bool Trial::judge(VertexId v, const TrialLimits& limits) {
-    // What a fit may still take back: a vertex that has moved is worth a try at more than the limit.
-    constexpr double hope = 2;
+    // What fits may still take back: a vertex that has moved is worth a try at more than the limit.
+    constexpr double hope = 3;
+    constexpr double hope_around = 2;
     samples_.gather(changed_, before_);
     const SampleError before = sum_up(samples_, before_);
     const double most = limits.most > 0 ? before.sum + hope * limits.most : hope * before.sum;
@@ -103,9 +135,12 @@ bool Trial::judge(VertexId v, const TrialLimits& limits) {
     samples_.put(changed_, after_);
     has_moved_samples_ = true;
     const double unfitted = samples_.sum();
+    const auto change = [&] { return after.sum - before.sum + (samples_.sum() - unfitted); };
     fit(v, limits.allowed2);
-    change_ = after.sum - before.sum + (samples_.sum() - unfitted);
-    return change_ < limits.most && worst_around(v) <= std::max(before.forward, limits.allowed2);
+    if (limits.fits_around && change() < limits.most * (limits.most > 0 ? hope_around : 1 / hope_around))
+        fit_around(v, limits.allowed2);
+    change_ = change();
+    return change_ < limits.most && worst_around(v) <= std::max(sum_up(samples_, before_).forward, limits.allowed2);
 }
 
 bool Trial::finish(VertexId v, const TrialLimits& limits) {

@@ -16,8 +16,9 @@ namespace delmesh {
 
 /// What a change may cost.
 struct TrialLimits {
-    double most = 0;      ///< the sum over the samples grows by less than this
-    double allowed2 = 0;  ///< no sample gets farther away (squared, local unit), or than the farthest around was
+    double most = 0;           ///< the sum over the samples grows by less than this
+    double allowed2 = 0;       ///< no sample gets farther away (squared, local unit), or than the farthest around was
+    bool fits_around = false;  ///< the vertices around are fitted as well: slower, and says better what is worth it
 };
 
 /// One change at a time; once one has succeeded, `keep` or `undo` it before the next. Two trials may be open at once
@@ -53,6 +54,8 @@ private:
     void push_sides(FaceId f);
     bool judge(VertexId v, const TrialLimits& limits);
     void fit(VertexId v, double allowed2);
+    void fit_around(VertexId v, double allowed2);
+    void take_faces_around();
     [[nodiscard]] double worst_around(VertexId v);
 
     Mesh& mesh_;
@@ -64,7 +67,8 @@ private:
     Star star_;
     std::vector<HalfedgeId> stack_;
     std::vector<FaceId> changed_, living_, original_;
-    std::vector<SurfaceSamples::Place> before_, after_;
+    std::vector<SurfaceSamples::Place> before_, after_, beside_;
+    std::vector<VertexId> ring_;
     bool has_moved_samples_ = false;
     double change_ = 0;
 };

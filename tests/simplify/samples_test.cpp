@@ -90,6 +90,48 @@ TEST_P(SamplesOf, FindTheNearestOfTheFacesNamed) {
     EXPECT_NEAR(samples.sum(), total, 1e-9 * sum);
 }
 
+/// In a plane the height says nothing about what lies beside the surface.
+TEST(Samples, SeeWhatSticksOutBesideTheSurface) {
+    Mesh mesh = delaunay_sample("grid", 800);
+    const double scale = local_scale(mesh);
+    SurfaceSamples samples(mesh, mesh.vertex_count(), scale, 1'000'000);
+    std::size_t inner = 0;
+    while (mesh.is_boundary(VertexId(inner))) ++inner;
+    Star star;
+    gather(mesh, VertexId(inner), scale, star);
+    samples.gather(star);
+    const Vec3 arm = star.ring[0].point;
+    EXPECT_EQ(samples.measure_backward(star, {}), 0);
+    EXPECT_EQ(samples.measure_backward(star, arm * 0.5), 0);
+    const double far = samples.measure_backward(star, arm * 20.0);
+    EXPECT_GT(far, 10 * 10 * squared_norm(arm));
+    EXPECT_LT(far, 20 * 20 * squared_norm(arm));
+
+    const std::vector<FaceId> faces{star.ring[0].face};
+    const VertexId v = star.ring[0].vertex;
+    std::vector<SurfaceSamples::Place> places;
+    samples.gather(faces, places);
+    EXPECT_EQ(samples.measure_backward(mesh, scale, faces, places, VertexId()), 0);
+    mesh.set_point(v, mesh.point(v) + (mesh.point(v) - mesh.point(VertexId(inner))) * 30.0);
+    EXPECT_GT(samples.measure_backward(mesh, scale, faces, places, VertexId()), 5 * 5 * squared_norm(arm));
+    EXPECT_EQ(samples.measure_backward(mesh, scale, faces, places, v), 0) << "left out";
+}
+
+TEST(Samples, KnowWhereThereIsAnError) {
+    Mesh mesh = delaunay_sample("torus", 2000);
+    SurfaceSamples samples(mesh, mesh.vertex_count(), 1, 1'000'000);
+    EXPECT_EQ(samples.busy_part(), 1) << "no error anywhere";
+    Star star;
+    gather(mesh, VertexId(0), 1, star);
+    samples.gather(star);
+    const Vec3 w = star.ring[0].old_normal * (0.1 / norm(star.ring[0].old_normal));
+    (void)samples.measure(star, w);
+    mesh.set_point(VertexId(0), star.frame.to_mesh(w));
+    samples.commit(star);
+    EXPECT_GT(samples.busy_part(), 0.0005);
+    EXPECT_LT(samples.busy_part(), 0.02);
+}
+
 TEST_P(SamplesOf, AreAllKeptAndKnowTheirDistanceAfterDecimation) {
     Mesh mesh = delaunay_sample(GetParam(), 3000);
     const std::size_t faces = mesh.face_count();
