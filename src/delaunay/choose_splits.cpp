@@ -123,7 +123,7 @@ void SplitChooser::find_places(double full, const Context* context) {
     const bool in_blocks = bad_.size() >= many_edges;
     if (options_.effort > 0) in_blocks ? improve_blocks_once(false, context) : wait_for_open_edges(full, context);
     if (is_cancelled(context)) return;
-    search_.close_rings(static_cast<std::uint64_t>(std::min(full, 0.1 * default_work())));
+    search_.close_rings(static_cast<std::uint64_t>(std::min(full, 0.3 * default_work())));
     search_.close_open(static_cast<std::uint64_t>(full));
     if (is_hopeless()) return;
     const double left = (1 + spare_share) * full - static_cast<double>(model_.work() - before);

@@ -18,7 +18,7 @@ namespace {
 /// Rounds of mending, in the model, what rounding breaks.
 constexpr int most_mendings = 3;
 /// Where construction and shells together need more splits than these, shells alone are tried instead.
-constexpr std::size_t most_splits_per_edge = 12;
+constexpr std::size_t most_splits_per_edge = 20;
 constexpr std::size_t least_most_splits = 500;
 
 constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();

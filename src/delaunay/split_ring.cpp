@@ -100,4 +100,15 @@ void SplitRing::lay_threads(std::size_t count) {
         model_.cut(rung.edge, 0, model_.point_count(rung.edge), rung.reversed ? reversed_places_ : places_);
 }
 
+std::size_t SplitRing::plan(bool is_quick) {
+    return threads_.plan(rungs_, is_quick) ? threads_.count() : 0;
+}
+
+void SplitRing::lay_planned_threads() {
+    for (std::size_t i = 0; i < rungs_.size(); ++i) {
+        threads_.places(i, places_);
+        model_.cut(rungs_[i].edge, 0, model_.point_count(rungs_[i].edge), places_);
+    }
+}
+
 }  // namespace delmesh

@@ -1,5 +1,7 @@
 #include "delaunay/split_search.hpp"
 
+#include "delaunay/foot_threads.hpp"
+
 #include <algorithm>
 #include <limits>
 
@@ -10,17 +12,21 @@ constexpr int first_rounds = 6;
 constexpr std::size_t first_steps = 50;
 constexpr std::array<std::size_t, 4> quick_steps{12, 48, 48, 96};
 constexpr std::size_t most_quickly_weaved = 128;
-constexpr std::uint64_t ring_share = 4;  ///< one in so many units of quick work
+constexpr std::uint64_t ring_share = 5;  ///< of quick work, where there are rings
+constexpr std::uint64_t foot_share = 2;  ///< the same, where edges are open in the end
 constexpr std::uint64_t look_share = 2;  ///< the same: facets of very many sides are not worth a look
 constexpr int mend_tries = 6;
 constexpr int shake_tries = 20;
 constexpr int close_tries = 3;
+constexpr int no_way = -2;
+constexpr int foot_way = -1;
 constexpr std::size_t weave_steps = 25;  ///< for each edge that may borrow instead
+constexpr std::size_t least_feet = 32;
+/// The farther feet go the more it matters what shells would cost. Only where few edges are bad that is often much.
+constexpr std::size_t most_feet = 512;
+constexpr std::size_t most_feet_of_few = 2048;
+constexpr std::size_t few_bad_edges = 1000;
 constexpr std::size_t most_weaved = 1024;
-constexpr std::size_t largest_ring = 1024;
-constexpr std::size_t most_threads = 40;
-constexpr std::size_t slide_steps = 60;
-constexpr std::size_t most_slid = 20'000;
 constexpr std::size_t short_slide = 8;
 constexpr std::size_t most_slid_at_once = 400;
 constexpr double open_share = 0.3;
@@ -56,20 +62,6 @@ bool SplitSearch::settle(std::uint32_t e, bool closed) {
     return closed;
 }
 
-/// Keeps those edges open that are neither Delaunay by now nor get closed.
-template <class Close>
-void SplitSearch::close_each(Close&& close) {
-    std::size_t left = 0;
-    for (const std::uint32_t e : open_) {
-        if (model_.first_bad(e) < 0) {
-            model_.give_up(e, false);
-        } else if (!close(e)) {
-            open_[left++] = e;
-        }
-    }
-    open_.resize(left);
-}
-
 /// Tries to make one open edge Delaunay, for a few points more.
 bool SplitSearch::attempt(std::uint32_t e, std::size_t steps, bool clear_first) {
     begin_on(e);
@@ -90,6 +82,7 @@ void SplitSearch::construct(const std::vector<std::uint32_t>& bad_edges, std::ui
 }
 
 void SplitSearch::construct_quickly(const std::vector<std::uint32_t>& bad_edges, std::uint64_t work) {
+    is_quick_ = true;
     repair_.be_quick();
     const std::uint64_t end = model_.work() + work;
     repair_.set_work_limit(model_.work() + work / look_share);
@@ -101,12 +94,19 @@ void SplitSearch::construct_quickly(const std::vector<std::uint32_t>& bad_edges,
         close_each([&](std::uint32_t e) {
             return !repair_.is_exhausted() && attempt(e, quick_steps[round], round > 0 && random_.chance(0.7));
         });
-        if (round == 0) close_rings(work / ring_share);
+        if (round == 0) close_rings(ring_share * work);
     }
+    close_by_feet(foot_share * work, bad_edges.size() < few_bad_edges ? most_feet_of_few : most_feet);
     repair_.set_work_limit(end);
     for (std::size_t size = 8; size <= most_quickly_weaved; size *= 4)
         close_each(
             [&](std::uint32_t e) { return !repair_.is_exhausted() && settle(e, weave(e, weave_steps * size, false)); });
+}
+
+void SplitSearch::close_by_feet(std::uint64_t work, std::size_t most) {
+    limit_work(work);
+    for (std::size_t steps = least_feet; steps <= most && !open_.empty(); steps *= 4)
+        close_each([&](std::uint32_t e) { return !repair_.is_exhausted() && settle(e, lay_feet(e, steps)); });
 }
 
 void SplitSearch::drop_closed() {
@@ -183,9 +183,17 @@ bool SplitSearch::weave(std::uint32_t e, std::size_t steps, bool clear_first) {
     return repair_.weave(model_.point_count() + steps, steps);
 }
 
+/// The same, at right angles to the edges.
+bool SplitSearch::lay_feet(std::uint32_t e, std::size_t steps) {
+    begin_on(e);
+    return lay_foot_threads(model_, repair_, model_.point_count() + steps, steps);
+}
+
 /// One of several ways, in a transaction that is left open. Returns the number of points then.
 std::size_t SplitSearch::close_by(int way, std::uint32_t e, std::size_t size) {
-    const bool closed = way < close_tries ? weave(e, weave_steps * size, way > 0) : borrow(e, size);
+    const bool closed = way == foot_way     ? lay_feet(e, weave_steps * size)
+                        : way < close_tries ? weave(e, weave_steps * size, way > 0)
+                                            : borrow(e, size);
     return closed ? model_.point_count() : std::numeric_limits<std::size_t>::max();
 }
 
@@ -197,8 +205,8 @@ void SplitSearch::close_open(std::uint64_t work) {
         close_each([&](std::uint32_t e) {
             Random best = random_;
             std::size_t fewest = std::numeric_limits<std::size_t>::max();
-            int way = -1;
-            for (int i = 0; i < 2 * close_tries && !repair_.is_exhausted(); ++i) {
+            int way = no_way;
+            for (int i = foot_way; i < 2 * close_tries && !repair_.is_exhausted(); ++i) {
                 if (i >= close_tries && other_.empty()) break;
                 const Random before = random_;
                 const std::size_t points = close_by(i, e, size);
@@ -210,7 +218,7 @@ void SplitSearch::close_open(std::uint64_t work) {
                 best = before;
                 way = i;
             }
-            if (way < 0) return false;
+            if (way == no_way) return false;
             // Again, as it was then.
             random_ = best;
             repair_.set_work_limit(~std::uint64_t{0});
@@ -219,46 +227,6 @@ void SplitSearch::close_open(std::uint64_t work) {
             return closed;
         });
         if (largest < size) return;
-    }
-}
-
-// --- rings ---
-
-/// Replaces the points of the ring that has been gathered by that many threads. Within a transaction.
-bool SplitSearch::solve_ring(std::size_t threads) {
-    const std::size_t n = ring_.rungs().size();
-    ring_.lay_threads(threads);
-    return slide_.run(slide_steps, most_slid) || repair_.weave(model_.point_count() + n, 4 * n);
-}
-
-void SplitSearch::close_rings(std::uint64_t work) {
-    limit_work(work);
-    close_each([&](std::uint32_t e) {
-        if (!ring_.gather(e, largest_ring)) return false;
-        for (std::size_t threads = 1; threads <= most_threads && !repair_.is_exhausted(); threads += 1 + threads / 3) {
-            begin_on(e);
-            if (settle(e, solve_ring(threads))) return true;
-        }
-        return false;
-    });
-}
-
-void SplitSearch::thin_rings(std::uint64_t work) {
-    limit_work(work);
-    std::vector<bool> done(model_.edge_count());
-    for (std::uint32_t e = 0; e < done.size() && !repair_.is_exhausted(); ++e) {
-        if (done[e] || model_.point_count(e) == 0 || !model_.is_movable(e)) continue;
-        if (!ring_.gather(e, largest_ring)) continue;
-        for (const Rung& rung : ring_.rungs())
-            if (rung.edge < done.size()) done[rung.edge] = true;
-        const std::size_t before = model_.point_count();
-        const std::size_t most = ring_.point_count() / ring_.rungs().size();
-        bool solved = false;
-        for (std::size_t threads = 1; threads <= most && !solved; threads += 1 + threads / 3) {
-            model_.begin();
-            solved = solve_ring(threads) && model_.point_count() < before;
-            solved ? model_.commit() : model_.rollback();
-        }
     }
 }
 
@@ -278,20 +246,6 @@ bool SplitSearch::shake(std::uint32_t e) {
         targets_.remove();
         model_.add_suspect(e);
         if (repair_.run(most, steps, random_.chance(0.5))) {
-            model_.commit();
-            return true;
-        }
-        model_.rollback();
-    }
-    return false;
-}
-
-/// Lays new threads around the ring of an edge.
-bool SplitSearch::relay(std::uint32_t e) {
-    if (!ring_.gather(e, largest_ring)) return false;
-    for (std::size_t threads = 2; threads <= most_threads && !repair_.is_exhausted(); threads += 1 + threads / 3) {
-        model_.begin();
-        if (solve_ring(threads)) {
             model_.commit();
             return true;
         }

@@ -94,9 +94,14 @@ private:
     void begin_on(std::uint32_t e);
     bool settle(std::uint32_t e, bool closed);
     bool weave(std::uint32_t e, std::size_t steps, bool clear_first);
+    void close_by_feet(std::uint64_t work, std::size_t most);
+    bool lay_feet(std::uint32_t e, std::size_t steps);
     bool borrow(std::uint32_t e, std::size_t size);
     std::size_t close_by(int way, std::uint32_t e, std::size_t size);
     bool solve_ring(std::size_t threads);
+    template <class Solve>
+    bool try_threads(std::size_t most, Solve&& solve);
+    bool close_ring();
     bool shake(std::uint32_t e);
     bool relay(std::uint32_t e);
     void gather_ball(std::uint32_t e, std::size_t size);
@@ -119,6 +124,7 @@ private:
 
     SplitModel& model_;
     bool is_quiet_ = false;
+    bool is_quick_ = false;
     Random random_;
     SplitRepair repair_;
     SplitTargets targets_;
@@ -149,5 +155,19 @@ private:
     std::vector<double> angles_;  ///< per edge, while polishing: the sine of the smallest angle of its triangles
     std::vector<double> new_angles_;
 };
+
+/// Keeps those edges open that are neither Delaunay by now nor get closed.
+template <class Close>
+void SplitSearch::close_each(Close&& close) {
+    std::size_t left = 0;
+    for (const std::uint32_t e : open_) {
+        if (model_.first_bad(e) < 0) {
+            model_.give_up(e, false);
+        } else if (!close(e)) {
+            open_[left++] = e;
+        }
+    }
+    open_.resize(left);
+}
 
 }  // namespace delmesh
