@@ -19,10 +19,10 @@ constexpr double flat = 1e-14;
 constexpr double least_room = 1e-7;
 /// The same where rounding has broken what was here.
 constexpr double wide_room = 1e-4;
+constexpr std::size_t few_points = 4;
 constexpr double centre_share = 0.4;
 constexpr double align_share = 0.5;
 constexpr int max_newton = 60;
-constexpr std::size_t max_chain = 64;
 /// Among more points a search by the model is faster.
 constexpr std::size_t longest_list = 24;
 /// What a response costs beside the evaluations that are counted one by one.
@@ -40,8 +40,9 @@ int narrowness(double from, double to, double begin, double end) {
 
 // --- what the edge itself needs ---
 
-/// Lists what both sides see, since many questions about it follow.
-void BestResponse::look(std::uint32_t e) {
+/// Lists what both sides see, since many questions about it follow. Unless `far`, only what parts of the stretch may
+/// see under the largest angle.
+void BestResponse::look(std::uint32_t e, bool far) {
     const FacetLayout& layout = model_.layout();
     for (int k = 0; k < 2; ++k) {
         View& view = views_[k];
@@ -55,21 +56,37 @@ void BestResponse::look(std::uint32_t e) {
         view.listed = true;
         view.points.push_back(side.apex);
         for (std::uint32_t s = facet.first_side; s < facet.first_side + 3; ++s)
-            if (s != view.side) look_at(side, s, view.points);
+            if (s != view.side) look_at(side, s, far, view.points);
         view.listed = view.points.size() <= longest_list;
     }
 }
 
-void BestResponse::look_at(const Side& side, std::uint32_t s, std::vector<Point2>& points) const {
+void BestResponse::look_at(const Side& side, std::uint32_t s, bool far, std::vector<Point2>& points) const {
     const std::size_t n = model_.point_count(model_.layout().edge_at(s));
     if (n == 0) return;
     const Side other = model_.layout().side(s);
     const Point2 p = side.to_frame(other.start);
     const Point2 d = side.turn(other.along);
-    for (const Part& part : model_.parts(other.edge).first(n)) {
+    auto parts = model_.parts(other.edge).first(n);
+    if (!far && n > few_points) parts = around_stretch(parts, p, d);
+    for (const Part& part : parts) {
         const Point2 q = p + part.end * d;
         if (q.y > 0) points.push_back(q);
     }
+}
+
+/// Of the points p + u d, those that a part of the stretch may see under the largest angle. The angle is largest where
+/// a circle through the part's ends touches the line, as far from where the line meets that of the edge as the
+/// geometric mean of their distances: so that place moves one way as the ends do.
+std::span<const Part> BestResponse::around_stretch(std::span<const Part> parts, Point2 p, Point2 d) const {
+    const double at_low = largest_angle_on_line(low_, low_, p, d);
+    const double at_high = largest_angle_on_line(high_, high_, p, d);
+    const auto before = [](const Part& part, double value) { return part.end < value; };
+    auto first = std::lower_bound(parts.begin(), parts.end(), std::min(at_low, at_high), before);
+    auto last = std::lower_bound(first, parts.end(), std::max(at_low, at_high), before);
+    if (first != parts.begin()) --first;
+    if (last != parts.end()) ++last;
+    return {first, last};
 }
 
 Point2 BestResponse::nearest(const View& view, double a, double b, double& cot) const {
@@ -218,11 +235,9 @@ int BestResponse::soft_weight(double t) const {
 // --- places to try ---
 
 /// Places near the ends of a cell, at a random scale: what is blocked there is blocked by a hair.
-template <class Take>
-void BestResponse::near_ends(double begin, double end, Take&& take) {
+std::array<double, 2> BestResponse::near_ends(double begin, double end) {
     const double distance = 0.2 * std::ldexp(end - begin, -static_cast<int>(random_.below(16)));
-    take(begin + distance);
-    take(end - distance);
+    return {begin + distance, end - distance};
 }
 
 double BestResponse::pick(double low, double high) {
@@ -237,7 +252,7 @@ std::span<const double> BestResponse::solve(std::uint32_t e, std::size_t first, 
     high_ = model_.parts(e)[last].end;
     room_ = std::min(model_.is_distrusted(e) ? wide_room : least_room, 0.01 * (high_ - low_));
     model_.count_work(response_work);
-    look(e);
+    look(e, false);
     const double up = reach_up(low_);
     first_reach_ = up;
     if (up >= high_ && last > first) return chosen_;
@@ -245,6 +260,7 @@ std::span<const double> BestResponse::solve(std::uint32_t e, std::size_t first, 
     aligned_.clear();
     if (!is_quick_ && random_.chance(align_share)) add_aligned_places(model_, e, {low_, high_}, aligned_);
     const double down = reach_down(high_);
+    last_reach_ = down;
     if (!place_one(std::max(down, low_ + room_), std::min(up, high_ - room_))) place_many();
     return chosen_;
 }
@@ -288,102 +304,6 @@ bool BestResponse::place_one(double low, double high) {
     return true;
 }
 
-/// Several points: the cheapest chain over some places in each cell.
-void BestResponse::place_many() {
-    is_quick_ ? add_quick_candidates() : add_candidates();
-    weigh_candidates();
-    if (!cheapest_chain()) plain_chain();
-}
-
-void BestResponse::add_candidates() {
-    candidates_.clear();
-    const auto add = [&](double t) { candidates_.push_back({t}); };
-    const int extra = cells_.size() < 12 ? 2 : cells_.size() < 40 ? 1 : 0;
-    for (const Cell& cell : cells_) {
-        add(pick(cell.begin, cell.end));
-        if (cell.weight > 0) near_ends(cell.begin, cell.end, add);
-        for (int i = 0; i < extra; ++i) add(cell.begin + (cell.end - cell.begin) * random_.uniform());
-    }
-    for (const double t : aligned_) add(t);
-    const double least_step = 1e-12 * (high_ - low_);
-    double at = low_;
-    for (std::size_t i = 0; i < max_chain; ++i) {
-        const double next = reach_up(at);
-        if (!(next > at + least_step) || next >= high_) break;
-        add(at = next);
-    }
-    at = high_;
-    for (std::size_t i = 0; i < max_chain; ++i) {
-        const double next = reach_down(at);
-        if (!(next < at - least_step) || next <= low_) break;
-        add(at = next);
-    }
-}
-
-/// One for each cell, and as far as one gets from `low_` on.
-void BestResponse::add_quick_candidates() {
-    candidates_.clear();
-    for (const Cell& cell : cells_) candidates_.push_back({pick(cell.begin, cell.end)});
-    const double least_step = 1e-12 * (high_ - low_);
-    double at = first_reach_;
-    for (std::size_t i = 0; i < max_chain && at < high_; ++i) {
-        Candidate& here = candidates_.emplace_back();
-        here.at = at;
-        here.reach = reach_up(at);
-        if (!(here.reach > at + least_step)) break;
-        at = here.reach;
-    }
-}
-
-void BestResponse::weigh_candidates() {
-    std::sort(candidates_.begin(), candidates_.end(),
-              [](const Candidate& a, const Candidate& b) { return a.at < b.at; });
-    const auto out = [&](const Candidate& c) { return c.at < low_ + room_ || c.at > high_ - room_; };
-    candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(), out), candidates_.end());
-    const auto same = [](const Candidate& a, const Candidate& b) { return a.at == b.at; };
-    candidates_.erase(std::unique(candidates_.begin(), candidates_.end(), same), candidates_.end());
-    model_.count_work(candidates_.size() * (4 + blocked_.size() + candidates_.size() / 4) / 4);
-    for (Candidate& candidate : candidates_) candidate.weight = soft_weight(candidate.at);
-}
-
-/// The cheapest way from low to high in Delaunay steps; fills `chosen_`.
-bool BestResponse::cheapest_chain() {
-    constexpr int never = std::numeric_limits<int>::max() / 2;
-    const double first_reach = is_quick_ ? first_reach_ : reach_up(low_);
-    candidates_.push_back({high_, -point_cost});
-    for (std::size_t j = 0; j < candidates_.size(); ++j) {
-        Candidate& here = candidates_[j];
-        here.cost = never;
-        here.before = -1;
-        const int own = point_cost + here.weight;
-        if (here.at <= first_reach && j + 1 < candidates_.size()) here.cost = own;
-        for (std::size_t i = 0; i < j; ++i) {
-            Candidate& before = candidates_[i];
-            if (before.cost + own >= here.cost) continue;
-            if (before.reach < 0) before.reach = reach_up(before.at);
-            if (before.reach < here.at || here.at < before.at + room_) continue;
-            here.cost = before.cost + own;
-            here.before = static_cast<int>(i);
-        }
-    }
-    if (candidates_.back().cost >= never) return false;
-    for (int i = candidates_.back().before; i >= 0; i = candidates_[i].before) chosen_.push_back(candidates_[i].at);
-    std::reverse(chosen_.begin(), chosen_.end());
-    return true;
-}
-
-/// As few points as the edge itself needs, whatever they block.
-void BestResponse::plain_chain() {
-    double at = low_;
-    for (std::size_t i = 0; i < max_chain; ++i) {
-        const double reach = reach_up(at);
-        if (reach >= high_) return;
-        const double next = at + (reach - at) * 0.999;
-        if (!(next > at)) return;
-        chosen_.push_back(at = next);
-    }
-}
-
 /// In units of the edge, squared.
 double BestResponse::distance2_to_others(double t) const {
     const double to_ends = std::min(t - low_, high_ - t);
@@ -399,7 +319,7 @@ double BestResponse::spread(std::uint32_t e, std::size_t i) {
     low_ = model_.part_start(e, i);
     high_ = model_.parts(e)[i + 1].end;
     model_.count_work(response_work);
-    look(e);
+    look(e, true);
     const double up = reach_up(low_);
     const double down = reach_down(high_);
     block(e);
@@ -439,7 +359,7 @@ void BestResponse::aim_at(std::uint32_t e, std::size_t first) {
     chosen_.clear();
     aligned_.clear();
     model_.count_work(response_work);
-    look(e);
+    look(e, false);
     block(e);
 }
 
@@ -466,7 +386,7 @@ double BestResponse::place_in_middle() {
         const double end = std::min(cell.end, to);
         if (!(begin < end)) continue;
         consider(pick(begin, end));
-        near_ends(begin, end, consider);
+        for (const double t : near_ends(begin, end)) consider(t);
     }
     for (const double t : aligned_) consider(t);
     return at;

@@ -4,6 +4,7 @@
 #include "delaunay/random.hpp"
 #include "delaunay/split_model.hpp"
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -52,6 +53,7 @@ private:
         int cost = 0;
         int before = 0;
         double reach = -1;  ///< unknown if negative
+        bool done = false;
     };
     /// The points that one side of the edge can see, in its frame; for single triangles only.
     struct View {
@@ -60,8 +62,9 @@ private:
         std::vector<Point2> points;
     };
 
-    void look(std::uint32_t e);
-    void look_at(const Side& side, std::uint32_t s, std::vector<Point2>& points) const;
+    void look(std::uint32_t e, bool far);
+    void look_at(const Side& side, std::uint32_t s, bool far, std::vector<Point2>& points) const;
+    [[nodiscard]] std::span<const Part> around_stretch(std::span<const Part> parts, Point2 p, Point2 d) const;
     [[nodiscard]] Point2 nearest(const View& view, double a, double b, double& cot) const;
     [[nodiscard]] double step(double a, double b, bool up) const;
     [[nodiscard]] double reach_up(double from) const;
@@ -74,16 +77,17 @@ private:
 
     void aim_at(std::uint32_t e, std::size_t first);
     [[nodiscard]] double place_in_middle();
-    template <class Take>
-    void near_ends(double begin, double end, Take&& take);
+    [[nodiscard]] std::array<double, 2> near_ends(double begin, double end);
     [[nodiscard]] double pick(double low, double high);
     [[nodiscard]] bool place_one(double low, double high);
     void place_many();
     [[nodiscard]] double distance2_to_others(double t) const;
     void add_candidates();
+    void add_farthest_candidates();
     void add_quick_candidates();
     void weigh_candidates();
     [[nodiscard]] bool cheapest_chain();
+    [[nodiscard]] int cheapest_candidate(int least);
     void plain_chain();
 
     SplitModel& model_;
@@ -93,6 +97,7 @@ private:
     double high_ = 1;
     double room_ = 0;
     double first_reach_ = -1;  ///< from low_, once it is known
+    double last_reach_ = -1;   ///< from high_
     std::array<View, 2> views_;
     std::vector<Cell> blocked_;  ///< one for each part of another edge, with its weight
     std::vector<Event> events_;

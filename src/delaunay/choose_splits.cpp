@@ -32,7 +32,7 @@ constexpr std::size_t worthwhile = 400;  ///< a round that saves less than 1/400
 constexpr int polish_rounds = 2;
 constexpr double spread_share = 0.2;
 /// The share of the work in which an edge must be closed; else the rest is closed by borrowing.
-constexpr double patience = 0.25;
+constexpr double patience = 0.1;
 /// With no more edges than these, and at least this many times as many points, the search starts more than once.
 constexpr std::size_t few_edges = 200;
 constexpr std::size_t hard = 2;
@@ -40,6 +40,10 @@ constexpr int most_starts = 2;
 constexpr double start_share = 0.6;  ///< of the work, for each start
 /// More for the search where no edge stayed open for long.
 constexpr double spare_share = 0.75;
+/// And for as long as a point that is saved takes less work than this.
+constexpr double cheap_point = 250e3;
+constexpr double extra_share = 0.1;
+constexpr int most_extra = 7;
 
 }  // namespace
 
@@ -127,9 +131,20 @@ void SplitChooser::find_places(double full, const Context* context) {
     search_.close_open(static_cast<std::uint64_t>(full));
     if (is_hopeless()) return;
     const double left = (1 + spare_share) * full - static_cast<double>(model_.work() - before);
-    if (options_.effort > 0)
-        in_blocks ? improve_blocks(context)
-                  : search_.improve(static_cast<std::uint64_t>(std::max(full, left)), context);
+    if (options_.effort > 0) in_blocks ? improve_blocks(context) : improve(full, std::max(full, left), context);
+}
+
+/// Goes on beyond that work for as long as it pays.
+void SplitChooser::improve(double full, double work, const Context* context) {
+    const double extra = extra_share * full;
+    const double end = static_cast<double>(model_.work()) + work - extra;
+    search_.improve(static_cast<std::uint64_t>(work - extra), context);
+    if (static_cast<double>(model_.work()) < end) return;
+    for (int i = 0; i <= most_extra && !is_cancelled(context); ++i) {
+        const std::size_t before = model_.point_count();
+        search_.improve(static_cast<std::uint64_t>(extra), context);
+        if (static_cast<double>(model_.point_count()) + extra / cheap_point > static_cast<double>(before)) return;
+    }
 }
 
 /// Where few edges need many points, much depends on luck: it is tried more than once.

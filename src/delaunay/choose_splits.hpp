@@ -70,6 +70,7 @@ private:
     void find_best_places(double full, const Context* context);
     void put(std::span<const PlacedPoint> points, const std::vector<std::uint32_t>& open);
     void spread(double work, bool in_blocks, const Context* context);
+    void improve(double full, double work, const Context* context);
     void improve_blocks_once(bool polish, const Context* context);
     void improve_blocks(const Context* context);
     void wait_for_open_edges(double work, const Context* context);

@@ -20,7 +20,32 @@ constexpr double tie_boundary = 1e-12;
 constexpr double distance = 1e-10;
 constexpr std::size_t few = 6;
 
-/// The parameter of the point of the line p + u d that sees [a,b] under the largest angle.
+/// Those of the sorted points p + u d that may see [a,b] under the largest angle: the angle rises to its maximum along
+/// the line and falls behind it.
+std::span<const double> worth_a_look(std::span<const double> points, double a, double b, Point2 p, Point2 d) {
+    if (points.size() <= few) return points;
+    const double top = largest_angle_on_line(a, b, p, d);
+    const auto above = static_cast<std::size_t>(std::lower_bound(points.begin(), points.end(), top) - points.begin());
+    const std::size_t first = above == 0 ? 0 : above - 1;
+    return points.subspan(first, std::min<std::size_t>(2, points.size() - first));
+}
+
+/// True if no point between p and q, both above the axis, sees [a,b] with a cotangent below `level`: none lies in a
+/// disc.
+bool stays_outside(double a, double b, double level, Point2 p, Point2 q) {
+    if (!(p.y > on_line && q.y > on_line && level < infinity)) return false;
+    const Point2 d = q - p;
+    const double height = level * (b - a);
+    const double at_p = (a - p.x) * (b - p.x) + p.y * (p.y - height);
+    const double at_q = (a - q.x) * (b - q.x) + q.y * (q.y - height);
+    if (!(at_p > 0 && at_q > 0)) return false;
+    const double slope = (2 * p.x - a - b) * d.x + (2 * p.y - height) * d.y;
+    const double length2 = dot(d, d);
+    return slope >= 0 || slope + 2 * length2 <= 0 || slope * slope < 4 * length2 * at_p;
+}
+
+}  // namespace
+
 double largest_angle_on_line(double a, double b, Point2 p, Point2 d) {
     const double middle = 0.5 * (a + b);
     const double half = 0.5 * (b - a);
@@ -32,18 +57,6 @@ double largest_angle_on_line(double a, double b, Point2 p, Point2 d) {
     const double discriminant = p.y * p.y - d.y * (2 * linear * p.y - constant * d.y) / length2;
     return (std::sqrt(std::max(discriminant, 0.0)) - p.y) / d.y;
 }
-
-/// Those of the sorted points p + u d that may see [a,b] under the largest angle: the angle rises to its maximum along
-/// the line and falls behind it.
-std::span<const double> worth_a_look(std::span<const double> points, double a, double b, Point2 p, Point2 d) {
-    if (points.size() <= few) return points;
-    const double top = largest_angle_on_line(a, b, p, d);
-    const auto above = static_cast<std::size_t>(std::lower_bound(points.begin(), points.end(), top) - points.begin());
-    const std::size_t first = above == 0 ? 0 : above - 1;
-    return points.subspan(first, std::min<std::size_t>(2, points.size() - first));
-}
-
-}  // namespace
 
 // --- storage ---
 
@@ -336,22 +349,18 @@ bool SplitModel::visit(std::uint32_t triangle) const {
     return true;
 }
 
-/// The smallest cotangent at which a point of the triangle's side i sees [a,b].
-double SplitModel::portal_level(const Side& side, const FacetTriangle& triangle, std::size_t i, double a,
-                                double b) const {
+/// The smallest cotangent at which a point of the segment from p to q sees [a,b].
+double SplitModel::portal_level(Point2 p, Point2 q, double a, double b) const {
     ++work_;
-    const Point2 from = layout_.corner(triangle.corner[i]);
-    const Point2 to = layout_.corner(triangle.corner[(i + 1) % 3]);
-    const Point2 p = side.to_frame(from);
-    const Point2 d = side.turn(to - from);
+    const Point2 d = q - p;
     const double u = std::clamp(largest_angle_on_line(a, b, p, d), 0.0, 1.0);
-    const Point2 q = p + u * d;
-    if (q.y > on_line) return cot_of(a, b, q);
+    const Point2 seen = p + u * d;
+    if (seen.y > on_line) return cot_of(a, b, seen);
     // From an end the angle on the way into the facet is the outer one of that way.
     const Point2 inward = u < 0.5 ? d : Point2{-d.x, -d.y};
-    if (inward.y > on_line && std::fabs(q.x - a) <= on_line) return -inward.x / inward.y;
-    if (inward.y > on_line && std::fabs(q.x - b) <= on_line) return inward.x / inward.y;
-    return (a - q.x) * (b - q.x) <= 0 ? -infinity : infinity;
+    if (inward.y > on_line && std::fabs(seen.x - a) <= on_line) return -inward.x / inward.y;
+    if (inward.y > on_line && std::fabs(seen.x - b) <= on_line) return inward.x / inward.y;
+    return (a - seen.x) * (b - seen.x) <= 0 ? -infinity : infinity;
 }
 
 /// Grows the disc of the points that see [a,b] until it holds one, through the triangles of the facet: the triangle
@@ -374,10 +383,15 @@ Contact SplitModel::flood(std::uint32_t s, double a, double b) const {
             found.cot = std::max(found.cot, portal.level);
             if (found.cot < best.cot) best = found;
         };
+        work_ += triangle_work_;
+        std::array<Point2, 3> corner;
+        std::array<bool, 3> known{};  // from a triangle that was visited before, at a lower level
         for (std::size_t i = 0; i < 3; ++i) {
-            const Point2 corner = side.to_frame(layout_.corner(triangle.corner[i]));
-            ++work_;
-            if (corner.y > flat) take({cot_of(a, b, corner), corner, none});
+            corner[i] = side.to_frame(layout_.corner(triangle.corner[i]));
+            if (!triangle.is_side[i] && seen_[triangle.beyond[i]] == visit_) known[i] = known[(i + 1) % 3] = true;
+        }
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (!known[i] && corner[i].y > flat) take({cot_of(a, b, corner[i]), corner[i], none});
             if (!triangle.is_side[i]) continue;
             const std::uint32_t other = triangle.beyond[i];
             Contact found{best.cot, {}, none};
@@ -386,7 +400,10 @@ Contact SplitModel::flood(std::uint32_t s, double a, double b) const {
         }
         for (std::size_t i = 0; i < 3; ++i) {
             if (triangle.is_side[i] || seen_[triangle.beyond[i]] == visit_) continue;
-            const double level = std::max(portal.level, portal_level(side, triangle, i, a, b));
+            const Point2 p = corner[i];
+            const Point2 q = corner[(i + 1) % 3];
+            if (stays_outside(a, b, best.cot, p, q)) continue;
+            const double level = std::max(portal.level, portal_level(p, q, a, b));
             if (level >= best.cot) continue;
             heap_.push_back({level, triangle.beyond[i]});
             std::push_heap(heap_.begin(), heap_.end());
@@ -407,7 +424,10 @@ bool SplitModel::reaches_through(std::uint32_t s, double a, double b, double lev
         heap_.pop_back();
         for (std::size_t i = 0; i < 3; ++i) {
             if (triangle.is_side[i] || seen_[triangle.beyond[i]] == visit_) continue;
-            if (!(portal_level(side, triangle, i, a, b) < level)) continue;
+            ++work_;
+            const Point2 p = side.to_frame(layout_.corner(triangle.corner[i]));
+            const Point2 q = side.to_frame(layout_.corner(triangle.corner[(i + 1) % 3]));
+            if (stays_outside(a, b, level, p, q) || !(portal_level(p, q, a, b) < level)) continue;
             if (triangle.beyond[i] == goal) return true;
             visit(triangle.beyond[i]);
             heap_.push_back({level, triangle.beyond[i]});

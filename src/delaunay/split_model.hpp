@@ -107,6 +107,8 @@ public:
     /// Elementary evaluations so far: the measure of work that budgets are stated in.
     [[nodiscard]] std::uint64_t work() const { return work_; }
     void count_work(std::size_t more) const { work_ += more; }
+    /// From now on facets of many triangles count for less than they take.
+    void favour_large_facets() { triangle_work_ = 3; }
 
     static constexpr int base_weight = 10;
 
@@ -148,8 +150,7 @@ private:
     [[nodiscard]] bool has_points(std::uint32_t s) const { return point_count(layout_.edge_at(s)) > 0; }
     [[nodiscard]] bool reaches_through(std::uint32_t s, double a, double b, double level, std::uint32_t t) const;
     [[nodiscard]] Contact flood(std::uint32_t s, double a, double b) const;
-    [[nodiscard]] double portal_level(const Side& side, const FacetTriangle& triangle, std::size_t i, double a,
-                                      double b) const;
+    [[nodiscard]] double portal_level(Point2 p, Point2 q, double a, double b) const;
     void start_visit() const;
     bool visit(std::uint32_t triangle) const;
 
@@ -167,6 +168,7 @@ private:
     mutable std::vector<Portal> heap_;
     mutable std::vector<std::uint32_t> seen_;
     mutable std::uint32_t visit_ = 0;
+    std::uint64_t triangle_work_ = 5;
     mutable std::uint64_t work_ = 0;
 };
 
@@ -174,5 +176,8 @@ private:
 [[nodiscard]] inline double cot_of(double a, double b, Point2 p) {
     return ((a - p.x) * (b - p.x) + p.y * p.y) / (p.y * (b - a));
 }
+
+/// The parameter of the point of the line p + u d that sees [a,b] under the largest angle.
+[[nodiscard]] double largest_angle_on_line(double a, double b, Point2 p, Point2 d);
 
 }  // namespace delmesh

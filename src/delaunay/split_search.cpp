@@ -29,8 +29,10 @@ constexpr std::size_t few_bad_edges = 1000;
 constexpr std::size_t most_weaved = 1024;
 constexpr std::size_t short_slide = 8;
 constexpr std::size_t most_slid_at_once = 400;
-constexpr double open_share = 0.3;
-constexpr double any_move_share = 0.4;
+constexpr double open_share = 0.5;      ///< of the work, for what is open
+constexpr double any_move_share = 0.1;  ///< of the work, for all moves alike
+constexpr std::size_t steps_per_point = 4;
+constexpr std::size_t least_steps = 12;
 constexpr std::size_t few_threads = 3;
 constexpr double pair_share = 0.5;
 constexpr std::size_t memory = 512;  ///< tries after which what moves have gained counts half
@@ -84,6 +86,7 @@ void SplitSearch::construct(const std::vector<std::uint32_t>& bad_edges, std::ui
 void SplitSearch::construct_quickly(const std::vector<std::uint32_t>& bad_edges, std::uint64_t work) {
     is_quick_ = true;
     repair_.be_quick();
+    model_.favour_large_facets();
     const std::uint64_t end = model_.work() + work;
     repair_.set_work_limit(model_.work() + work / look_share);
     std::size_t known = 0;
@@ -301,6 +304,7 @@ void SplitSearch::improve(std::uint64_t work, const Context* context) {
     std::uint64_t check = start + stretch;
     std::size_t points_then = model_.point_count() + open_.size();
     std::size_t since = 0;
+    std::uint64_t open_work = 0;
     find_spare_edges();
     while (!spare_.empty() || !open_.empty()) {
         if (model_.work() - start >= work || is_cancelled(context)) return;
@@ -313,8 +317,11 @@ void SplitSearch::improve(std::uint64_t work, const Context* context) {
                 report_progress(context, "place",
                                 static_cast<double>(model_.work() - start) / static_cast<double>(work));
         }
-        if (!open_.empty() && (spare_.empty() || random_.chance(open_share))) {
+        const std::uint64_t done = model_.work() - start;
+        if (!open_.empty() &&
+            (spare_.empty() || static_cast<double>(open_work) <= open_share * static_cast<double>(done))) {
             attempt_any_open();
+            open_work += model_.work() - start - done;
         } else {
             const std::size_t i = random_.below(spare_.size());
             const std::uint32_t e = spare_[i];
@@ -332,13 +339,17 @@ void SplitSearch::improve(std::uint64_t work, const Context* context) {
     }
 }
 
+/// Each gets work in proportion to what it has gained per work, and a little more.
 SplitSearch::Move& SplitSearch::choose_move() {
-    if (random_.chance(any_move_share)) return moves_[random_.below(moves_.size())];
+    double rates = 0;
+    for (const Move& move : moves_) rates += move.gain / move.work;
+    const double more = any_move_share / (1 - any_move_share) * rates / static_cast<double>(moves_.size());
+    const auto share = [&](const Move& move) { return (move.gain / move.work + more) * move.tries / move.work; };
     double sum = 0;
-    for (const Move& move : moves_) sum += move.gain / move.work;
+    for (const Move& move : moves_) sum += share(move);
     double left = sum * random_.uniform();
     for (Move& move : moves_) {
-        left -= move.gain / move.work;
+        left -= share(move);
         if (left < 0) return move;
     }
     return moves_.front();
@@ -348,6 +359,7 @@ void SplitSearch::forget_gains() {
     for (Move& move : moves_) {
         move.gain = 0.5 * move.gain + 1e-3;
         move.work = 0.5 * move.work + 1e-3;
+        move.tries = 0.5 * move.tries + 1e-3;
     }
 }
 
@@ -356,7 +368,7 @@ void SplitSearch::try_once(std::uint32_t edge) {
     take(move, edge);
     const std::size_t before = model_.point_count();
     const std::uint64_t work_before = model_.work();
-    const std::size_t steps = 6 * targets_.size() + 20;
+    const std::size_t steps = steps_per_point * targets_.size() + least_steps;
     model_.begin();
     targets_.remove();
     if (move.kind == Kind::slide) slide_.run(short_slide, most_slid_at_once);
@@ -368,6 +380,7 @@ void SplitSearch::try_once(std::uint32_t edge) {
     } else {
         model_.rollback();
     }
+    ++move.tries;
     move.work += 1e-4 * static_cast<double>(model_.work() - work_before);
     if (++tries_ % memory == 0) forget_gains();
 }

@@ -85,6 +85,7 @@ private:
         bool weaves = false;
         double gain = 1;
         double work = 1;
+        double tries = 1;
     };
 
     void limit_work(std::uint64_t more) { repair_.set_work_limit(model_.work() + more); }
