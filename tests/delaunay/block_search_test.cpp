@@ -133,7 +133,7 @@ TEST_P(Blocks, PolishingLeavesFewerThinFacesAndNoMorePoints) {
         }
         EXPECT_LE(model.point_count(), points);
         EXPECT_EQ(count_bad(model), 0U);
-        EXPECT_GE(thin, 10U);
+        EXPECT_GE(thin, 5U);
         EXPECT_LT(count_thin_faces(prepared, model, 0.02), thin);
     }
 }
