@@ -121,13 +121,15 @@ Mesh without_dead(const Mesh& mesh, const Numbering& numbering) {
 }
 
 /// Quadrics of the current faces drift away from the original: every time the vertices have become half as many, they
-/// are moved back.
-std::size_t refit_on_the_way(Decimator& decimator, std::size_t input_vertices, std::size_t target,
+/// are moved back. With `records`, not where nothing has been collapsed: that level has been handed out.
+std::size_t refit_on_the_way(Decimator& decimator, std::size_t input_vertices, std::size_t target, bool records,
                              const Context* context) {
     std::size_t moves = 0;
     for (std::size_t stop = input_vertices / 4; stop > target + target / 2 && !is_cancelled(context); stop /= 2) {
-        if (stop >= decimator.vertices()) continue;
+        const std::size_t before = decimator.vertices();
+        if (stop >= before) continue;
         decimator.run(stop, context);
+        if (records && decimator.vertices() == before) break;
         moves += decimator.refit({.rounds = 1}, context);
     }
     return moves;
@@ -220,15 +222,16 @@ std::unique_ptr<Sweeper> sweep_first(Mesh& mesh, const Tuning& tuning, const Sim
 
 /// What may be done on the way. Steps that are recorded know no flips, so neither the first nor the last then.
 struct Way {
-    bool shakes = false, refits = false, polishes = false;
+    bool records = false, shakes = false, refits = false, polishes = false;
 };
 
 /// Down to so many vertices, if it can be, and makes the best of them.
 void reach(Decimator& decimator, std::size_t target, const Way& way, const Tuning& tuning, Numbering& numbering,
            SimplifyReport& report, const Context* context) {
     const bool polish = way.polishes && target <= tuning.polish_below;
+    const std::size_t before = decimator.vertices();
     decimator.guard_for(target);
-    if (way.refits) report.moves += refit_on_the_way(decimator, report.input_vertices, target, context);
+    if (way.refits) report.moves += refit_on_the_way(decimator, report.input_vertices, target, way.records, context);
     if (polish) {
         report.moves += run_on(decimator, reduce_from(target, tuning), way.refits, context);
         decimator.reduce(target, context);
@@ -241,7 +244,7 @@ void reach(Decimator& decimator, std::size_t target, const Way& way, const Tunin
         shake_free(decimator, std::max(target, report.least_vertices), most, context);
     }
     report.levels.push_back(describe_level(decimator, target, context));
-    if (!way.refits || decimator.counts().collapses == 0) return;
+    if (!way.refits || decimator.counts().collapses == 0 || (way.records && decimator.vertices() == before)) return;
     if (polish) {
         report.moves += decimator.refit(before_polish, context);
         decimator.close_gaps(numbering);
@@ -285,7 +288,10 @@ SimplifyReport run(Mesh& mesh, const SimplifyOptions& options, ProgressiveMesh* 
         report.moves = decimator.refit({.rounds = 1}, context);
         sweeper.reset();
     }
-    const Way way{.shakes = shakes && record == nullptr, .refits = refit, .polishes = refit && record == nullptr};
+    const Way way{.records = record != nullptr,
+                  .shakes = shakes && record == nullptr,
+                  .refits = refit,
+                  .polishes = refit && record == nullptr};
     for (const std::size_t target : targets) {
         reach(decimator, target, way, tuning, numbering, report, context);
         report.stop = report.levels.back().stop;

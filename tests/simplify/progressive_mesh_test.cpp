@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <string_view>
 
 namespace delmesh {
 namespace {
@@ -44,32 +45,41 @@ ProgressiveMesh record(Mesh mesh, const SimplifyOptions& options = as_far_as_it_
     return progressive;
 }
 
+void expect_replays(const test::NamedSoup& named, std::uint64_t seed) {
+    Mesh mesh(named.soup);
+    SimplifyOptions options;
+    options.remesh.max_vertices = 5000;
+    options.remesh.seed = seed;
+    const std::size_t n = mesh.vertex_count();
+    options.levels = {n, n - n / 4, n / 2 + 1, n / 4 + 1, n / 8 + 1, n / 16 + 1};
+    std::map<std::size_t, std::multiset<std::array<std::array<double, 3>, 3>>> seen;
+    options.on_level = [&](const Mesh& coarse, const LevelReport& level) { seen[level.vertices] = surface(coarse); };
+    ProgressiveMesh progressive;
+    SimplifyReport report;
+    try {
+        report = simplify(mesh, options, progressive);
+    } catch (const Error&) {
+        return;
+    }
+    if (report.stop == SimplifyStop::not_delaunay) return;
+    for (const auto& [vertices, faces] : seen) {
+        const Mesh replayed = progressive.at(vertices);
+        EXPECT_EQ(validate(replayed), "") << named.name;
+        EXPECT_EQ(replayed.vertex_count(), vertices) << named.name;
+        EXPECT_TRUE(surface(replayed) == faces) << named.name << " at " << vertices << ", seed " << seed;
+    }
+    EXPECT_TRUE(surface(progressive.at(0)) == surface(mesh)) << named.name;
+}
+
 TEST(ProgressiveMesh, ReplaysEveryLevelOfEveryFamilyAsItWas) {
+    for (const test::NamedSoup& named : test::families(200)) expect_replays(named, 1);
+}
+
+/// A level that is blocked above its target has been handed out: what moves after that belongs to the next one.
+TEST(ProgressiveMesh, ReplaysLevelsThatWereBlocked) {
     for (const test::NamedSoup& named : test::families(200)) {
-        Mesh mesh(named.soup);
-        SimplifyOptions options;
-        options.remesh.max_vertices = 5000;
-        const std::size_t n = mesh.vertex_count();
-        options.levels = {n, n - n / 4, n / 2 + 1, n / 4 + 1, n / 8 + 1, n / 16 + 1};
-        std::map<std::size_t, std::multiset<std::array<std::array<double, 3>, 3>>> seen;
-        options.on_level = [&](const Mesh& coarse, const LevelReport& level) {
-            seen[level.vertices] = surface(coarse);
-        };
-        ProgressiveMesh progressive;
-        SimplifyReport report;
-        try {
-            report = simplify(mesh, options, progressive);
-        } catch (const Error&) {
-            continue;
-        }
-        if (report.stop == SimplifyStop::not_delaunay) continue;
-        for (const auto& [vertices, faces] : seen) {
-            const Mesh replayed = progressive.at(vertices);
-            EXPECT_EQ(validate(replayed), "") << named.name;
-            EXPECT_EQ(replayed.vertex_count(), vertices) << named.name;
-            EXPECT_TRUE(surface(replayed) == faces) << named.name << " at " << vertices;
-        }
-        EXPECT_TRUE(surface(progressive.at(0)) == surface(mesh)) << named.name;
+        if (std::string_view(named.name) != "plate") continue;
+        for (std::uint64_t seed = 3; seed <= 6; ++seed) expect_replays(named, seed);
     }
 }
 
