@@ -137,9 +137,10 @@ private:
         most_by_plan_ = shells.done() ? 2 * shells.report.splits : unlimited;
         SplitPlanner planner(marked_, start_.bad, {static_cast<int>(options_.effort), options_.seed}, shells.splits);
         TrialPointer trial = by_plan(planner, planner.search(context_));
+        const bool is_broken = misses_its_plan(*trial);
         // Rounding broke what was found. It may leave alone what takes less searching.
         for (const bool quick : {false, true}) {
-            if (!misses_its_plan(*trial) || trial->cancelled() || (quick && !shells.done())) break;
+            if (!is_broken || trial->cancelled() || (quick && !shells.done())) break;
             if (!shells.done() && !trial->done()) trial.reset();
             SplitPlanner simple(marked_, start_.bad, {0, options_.seed, quick}, shells.splits);
             TrialPointer other = by_plan(simple, simple.search(context_));

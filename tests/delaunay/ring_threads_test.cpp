@@ -2,9 +2,8 @@
 
 #include "delaunay/ring_threads.hpp"
 
-#include "delaunay/classify.hpp"
+#include "delaunay/prepared_model.hpp"
 #include "delaunay/preserve_check.hpp"
-#include "delaunay/refine.hpp"
 #include "delaunay/split_ring.hpp"
 #include "delmesh/delaunay/remesh.hpp"
 #include "delmesh/mesh/polygon_soup.hpp"
@@ -88,22 +87,11 @@ TEST(Wall, OfNeedlesBetweenSawsTakesAFewThreads) {
     EXPECT_LE(report.splits, 16 * sides) << report.splits_by_shells;
 }
 
-struct Rings {
-    explicit Rings(Mesh from) : mesh(std::move(from)), marked(mesh, mark_edges(mesh, nullptr), {}), model(marked) {
-        for (std::size_t i = 0; i < mesh.halfedge_count(); ++i)
-            if (!marked.is_planar(HalfedgeId(i))) model.prepare(model.edge_of(HalfedgeId(i)));
-    }
-
-    Mesh mesh;
-    MarkedMesh marked;
-    SplitModel model;
-};
-
 TEST(RingThreads, LeaveNoRungBadAndTakeWorkInProportionToTheRing) {
     std::array<double, 2> work{};
     for (const int i : {0, 1}) {
         const std::uint32_t sides = i == 0 ? 480 : 960;
-        Rings rings(make_saw(sides));
+        test::PreparedModel rings(make_saw(sides));
         SplitRing ring(rings.model);
         std::uint32_t e = 0;
         while (!ring.gather(e, 10'000)) ++e;

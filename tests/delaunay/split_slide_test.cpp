@@ -2,9 +2,8 @@
 
 #include "delaunay/split_slide.hpp"
 
-#include "delaunay/classify.hpp"
+#include "delaunay/prepared_model.hpp"
 #include "delaunay/random.hpp"
-#include "delaunay/refine.hpp"
 #include "delaunay/split_ring.hpp"
 #include "delmesh/mesh/polygon_soup.hpp"
 
@@ -36,14 +35,8 @@ Mesh make_tube() {
 
 class Tube : public testing::Test {
 protected:
-    Tube() : mesh_(make_tube()), marked_(mesh_, mark_edges(mesh_, nullptr), {}), model_(marked_) {
-        for (std::size_t i = 0; i < mesh_.halfedge_count(); ++i)
-            if (!marked_.is_planar(HalfedgeId(i))) model_.prepare(model_.edge_of(HalfedgeId(i)));
-    }
-
-    Mesh mesh_;
-    MarkedMesh marked_;
-    SplitModel model_;
+    test::PreparedModel prepared_{make_tube()};
+    SplitModel& model_ = prepared_.model;
 };
 
 TEST_F(Tube, IsARingOfAllItsLongEdges) {

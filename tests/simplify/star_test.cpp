@@ -18,18 +18,12 @@ Mesh fan_with_chord() {
     return Mesh(std::move(soup));
 }
 
-HalfedgeId find(const Mesh& mesh, VertexId from, VertexId to) {
-    for (std::size_t i = 0; i < mesh.halfedge_count(); ++i)
-        if (mesh.origin(HalfedgeId(i)) == from && mesh.target(HalfedgeId(i)) == to) return HalfedgeId(i);
-    return {};
-}
-
 TEST(Star, OfAChordIsEmptyWhateverWasGatheredBefore) {
     const Mesh mesh = fan_with_chord();
     Star star;
-    ASSERT_TRUE(gather(mesh, find(mesh, VertexId(0), VertexId(1)), 1, star));
+    ASSERT_TRUE(gather(mesh, mesh.find_halfedge(VertexId(0), VertexId(1)), 1, star));
     EXPECT_EQ(star.ring.size(), 3u);
-    EXPECT_FALSE(gather(mesh, find(mesh, VertexId(2), VertexId(3)), 1, star));
+    EXPECT_FALSE(gather(mesh, mesh.find_halfedge(VertexId(2), VertexId(3)), 1, star));
     EXPECT_TRUE(star.ring.empty());
 }
 
