@@ -88,9 +88,17 @@ Json run_to_json(const RemeshArguments& arguments, const Outcome& outcome) {
 }
 
 std::string_view what_to_try(const RemeshOptions& options, const RemeshReport& report) {
-    if (options.mode != RemeshMode::preserve) return "";
-    return report.flat_tolerance > 0 ? "; --mode feature may do with fewer vertices"
-                                     : "; --flat-tolerance 1e-5 or --mode feature may do with fewer vertices";
+    switch (options.mode) {
+        case RemeshMode::preserve:
+            return report.flat_tolerance > 0
+                       ? "; --mode feature or --mode flip may do with fewer vertices"
+                       : "; --flat-tolerance 1e-5, --mode feature or --mode flip may do with fewer vertices";
+        case RemeshMode::feature:
+            return "; a larger --feature-angle or --mode flip may do with fewer vertices";
+        case RemeshMode::flip:
+            break;
+    }
+    return "";
 }
 
 std::string why_it_stopped(const RemeshArguments& arguments, const Outcome& outcome) {

@@ -203,5 +203,16 @@ TEST_F(Contract, StoppingShortIs5AndWritesOnlyWhatIsAskedFor) {
     EXPECT_EQ(delmesh("check b.ply").exit_code, 1);
 }
 
+TEST_F(Contract, StoppingShortNamesTheModesThatNeedFewerVertices) {
+    ASSERT_EQ(delmesh("sample plate a.ply --faces 200").exit_code, 0);
+    const auto error = [&](const std::string& mode) {
+        return delmesh("remesh a.ply b.ply --effort 0 --max-vertices 1 --mode " + mode).err;
+    };
+    EXPECT_NE(error("preserve").find("--mode feature or --mode flip"), std::string::npos);
+    const std::string of_feature = error("feature");
+    EXPECT_NE(of_feature.find("--mode flip"), std::string::npos) << of_feature;
+    EXPECT_EQ(of_feature.find("--mode feature"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace delmesh
