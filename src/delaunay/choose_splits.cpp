@@ -112,8 +112,14 @@ void SplitChooser::search(const Context* context) {
         spread(full, in_blocks, context);
     }
     if (baseline_.empty()) return;
+    leaves_open_ = !search_.open().empty();
+    if (!leaves_open_) close_by_baseline();
+}
+
+void SplitChooser::close_by_baseline() {
     delmesh::take_better_regions(model_, search_.open(), placed_points(model_), baseline_);
     is_compared_ = true;
+    leaves_open_ = false;
 }
 
 /// What is still open in a large mesh makes the shells explode again: no use in improving the rest.
@@ -255,6 +261,7 @@ SplitPlan SplitChooser::plan() const {
     for (std::uint32_t e = 0; e < model_.edge_count(); ++e)
         if (model_.is_distrusted(e)) plan.distrusted.push_back(name(e));
     plan.is_compared = is_compared_;
+    plan.leaves_open = leaves_open_;
     return plan;
 }
 
@@ -271,6 +278,7 @@ void SplitChooser::resume(const SplitPlan& plan) {
     }
     put(points, open);
     is_compared_ = plan.is_compared;
+    leaves_open_ = plan.leaves_open;
 }
 
 bool SplitChooser::mend(std::span<const std::array<VertexId, 2>> edges) {

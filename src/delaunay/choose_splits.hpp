@@ -28,6 +28,7 @@ struct SplitPlan {
     std::vector<EdgeId> open;        ///< edges that are not Delaunay with them
     std::vector<EdgeId> distrusted;  ///< see SplitModel
     bool is_compared = false;        ///< with the baseline, region by region
+    bool leaves_open = false;        ///< what is open, although there is a baseline
 };
 
 /// The point at t of the edge of h, from its smaller vertex.
@@ -45,8 +46,11 @@ public:
     /// Takes the baseline away, in the words of the mesh but for what lies within facets. For large ones: there is no
     /// room for a second copy as long as the model is there, so `edge` is the half-edge that names it.
     [[nodiscard]] std::vector<PlacedPoint> take_baseline();
-    /// Without a baseline some edges may stay as they are, not Delaunay.
+    /// Some edges may stay as they are, not Delaunay: `leaves_open` where there is a baseline.
     void search(const Context* context);
+    [[nodiscard]] bool leaves_open() const { return leaves_open_; }
+    /// Takes the baseline in all regions where edges are open, or where it has fewer points.
+    void close_by_baseline();
     /// Instead of `search`: in about the time of the shells, and less well. Edges may stay as they are.
     void construct_quickly();
     /// The points, ordered by edge and parameter.
@@ -83,8 +87,9 @@ private:
     std::vector<std::uint32_t> bad_;
     std::vector<PlacedPoint> baseline_;
     bool is_compared_ = false;  ///< with the baseline, region by region, as the points are now
-    int round_ = 0;             ///< of the search in blocks
-    double shares_done_ = 0;    ///< of the full work, in these rounds
+    bool leaves_open_ = false;
+    int round_ = 0;           ///< of the search in blocks
+    double shares_done_ = 0;  ///< of the full work, in these rounds
 };
 
 }  // namespace delmesh

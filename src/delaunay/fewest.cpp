@@ -136,14 +136,14 @@ private:
         if (TrialPointer trial = by_probes(shells)) return trial;
         most_by_plan_ = shells.done() ? 2 * shells.report.splits : unlimited;
         SplitPlanner planner(marked_, start_.bad, {static_cast<int>(options_.effort), options_.seed}, shells.splits);
-        TrialPointer trial = by_plan(planner, planner.search(context_));
-        const bool is_broken = misses_its_plan(*trial);
+        TrialPointer trial = by_search(planner);
+        const bool is_broken = misses_its_plan(*trial) && !planner.leaves_open();
         // Rounding broke what was found. It may leave alone what takes less searching.
         for (const bool quick : {false, true}) {
             if (!is_broken || trial->cancelled() || (quick && !shells.done())) break;
             if (!shells.done() && !trial->done()) trial.reset();
             SplitPlanner simple(marked_, start_.bad, {0, options_.seed, quick}, shells.splits);
-            TrialPointer other = by_plan(simple, simple.search(context_));
+            TrialPointer other = by_search(simple);
             if (!trial || other->cancelled() || other->beats(trial->report)) trial = std::move(other);
         }
         if (trial->cancelled()) return trial;
@@ -156,6 +156,15 @@ private:
         if (second && second->cancelled()) return second;
         if (second && second->beats(trial->report)) trial = std::move(second);
         return trial->beats(shells.report) ? std::move(trial) : nullptr;
+    }
+
+    /// What the search leaves open is left to the shells: mostly they need far fewer points for that than in all of the
+    /// region. Where they do not end, the region is taken from the baseline.
+    TrialPointer by_search(SplitPlanner& planner) {
+        TrialPointer trial = by_plan(planner, planner.search(context_));
+        if (!planner.leaves_open() || trial->done() || trial->cancelled()) return trial;
+        trial.reset();
+        return by_plan(planner, planner.close_by_baseline());
     }
 
     [[nodiscard]] static bool misses_its_plan(const Trial& trial) {

@@ -35,6 +35,11 @@ std::vector<SplitPoint> SplitPlanner::search(const Context* context) {
     return hand_over();
 }
 
+std::vector<SplitPoint> SplitPlanner::close_by_baseline() {
+    chooser().close_by_baseline();
+    return hand_over();
+}
+
 std::optional<std::vector<SplitPoint>> SplitPlanner::mend(std::span<const std::array<VertexId, 2>> edges) {
     if (chooser().mend(edges)) return hand_over();
     rest();

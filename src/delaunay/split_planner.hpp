@@ -22,6 +22,10 @@ public:
 
     /// `SplitChooser::search`; hands over the plan.
     [[nodiscard]] std::vector<SplitPoint> search(const Context* context);
+    /// `SplitChooser::leaves_open`.
+    [[nodiscard]] bool leaves_open() const { return chooser_ ? chooser_->leaves_open() : plan_.leaves_open; }
+    /// `SplitChooser::close_by_baseline`; hands over the changed plan.
+    [[nodiscard]] std::vector<SplitPoint> close_by_baseline();
     /// `SplitChooser::mend`; hands over the changed plan.
     [[nodiscard]] std::optional<std::vector<SplitPoint>> mend(std::span<const std::array<VertexId, 2>> edges);
     /// `SplitChooser::take_better_regions`; hands over the changed plan.

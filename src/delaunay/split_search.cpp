@@ -101,6 +101,10 @@ void SplitSearch::construct_quickly(const std::vector<std::uint32_t>& bad_edges,
     }
     close_by_feet(foot_share * work, bad_edges.size() < few_bad_edges ? most_feet_of_few : most_feet);
     repair_.set_work_limit(end);
+    close_by_weaving();
+}
+
+void SplitSearch::close_by_weaving() {
     for (std::size_t size = 8; size <= most_quickly_weaved; size *= 4)
         close_each(
             [&](std::uint32_t e) { return !repair_.is_exhausted() && settle(e, weave(e, weave_steps * size, false)); });
@@ -229,8 +233,11 @@ void SplitSearch::close_open(std::uint64_t work) {
             repair_.set_work_limit(end);
             return closed;
         });
-        if (largest < size) return;
+        if (largest < size) break;
     }
+    close_by_feet(work / 4, most_feet_of_few);
+    limit_work(work / 4);
+    close_by_weaving();
 }
 
 // --- mending ---

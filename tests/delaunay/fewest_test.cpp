@@ -13,7 +13,9 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <numeric>
 #include <utility>
+#include <vector>
 
 namespace delmesh {
 namespace {
@@ -99,32 +101,40 @@ TEST(Effort, ZeroTakesHalfOfTheShellsOnRoughSurfaces) {
     }
 }
 
-/// A long thin tube whose sides have very different widths, with uneven ends: triangles as thin as one to some
-/// thousands. Points on one long edge make points on the next one necessary, all around, and few places fit.
-Mesh make_tube(std::uint64_t seed) {
-    constexpr std::uint32_t sides = 8;
-    constexpr double radius = 0.003;
-    Random random(seed);
-    std::array<double, sides> angle{};
-    double sum = 0;
-    for (double& a : angle) {
-        a = sum;
-        sum += random.chance(0.5) ? 0.05 + 0.1 * random.uniform() : 0.3 + 0.7 * random.uniform();
-    }
+/// A long thin tube around a circle whose parts have these widths, relative to each other; the corners of both ends lie
+/// off them by these lengths. Its triangles are as thin as one to some thousands: points on one long edge make points
+/// on the next one necessary, all around, and few places fit.
+Mesh make_tube(double radius, const std::vector<double>& widths, const std::vector<double>& offsets) {
+    const double around = std::accumulate(widths.begin(), widths.end(), 0.0);
+    const auto sides = static_cast<std::uint32_t>(widths.size());
     PolygonSoup soup;
-    for (const double z : {0.0, 1.0})
-        for (const double a : angle) {
+    for (std::uint32_t end = 0; end < 2; ++end) {
+        double sum = 0;
+        for (std::uint32_t i = 0; i < sides; ++i) {
             // A rational circle, as sines differ in their last bits between systems.
-            const double half = 4 * (a / sum) - 2;
+            const double half = 4 * (sum / around) - 2;
             const double scale = radius / (1 + half * half);
-            soup.points.push_back(
-                {scale * (1 - half * half), scale * 2 * half, z + 0.3 * radius * (2 * random.uniform() - 1)});
+            soup.points.push_back({scale * (1 - half * half), scale * 2 * half, end + offsets[end * sides + i]});
+            sum += widths[i];
         }
+    }
     for (std::uint32_t i = 0; i < sides; ++i) {
         const std::uint32_t j = (i + 1) % sides;
         for (const std::uint32_t v : {i, j, sides + i, j, sides + j, sides + i}) soup.corners.push_back(v);
     }
     return Mesh(std::move(soup));
+}
+
+Mesh make_tube(std::uint64_t seed) {
+    constexpr std::size_t sides = 8;
+    constexpr double radius = 0.003;
+    Random random(seed);
+    std::vector<double> widths(sides);
+    std::vector<double> offsets(2 * sides);
+    for (double& width : widths)
+        width = random.chance(0.5) ? 0.05 + 0.1 * random.uniform() : 0.3 + 0.7 * random.uniform();
+    for (double& offset : offsets) offset = 0.3 * radius * (2 * random.uniform() - 1);
+    return make_tube(radius, widths, offsets);
 }
 
 TEST(ThinTubes, TakeAFewThreadsAroundAndNotThousandsOfShells) {
@@ -137,6 +147,24 @@ TEST(ThinTubes, TakeAFewThreadsAroundAndNotThousandsOfShells) {
         EXPECT_EQ(check_preserved(before, mesh, report.provenance, 1e-13), "");
         EXPECT_LT(10 * report.splits, report.splits_by_shells);
     }
+}
+
+/// Threads around ends as uneven as these end on them, so that some edge stays open for long: that is no reason to take
+/// all that the shells put in.
+TEST(ThinTubes, WithUnevenEndsDoNotCostWhatShellsNeed) {
+    std::vector<double> offsets{-27, 66,  -94, 94,  -41, 9,   -75, -91, -98, 20, 12,  63,
+                                70,  -15, 69,  -60, 76,  -50, 88,  -23, -14, 4,  -88, -85};
+    for (double& offset : offsets) offset = 0.003 * offset / 100;
+    const Mesh before = make_tube(0.001, {44, 11, 13, 33, 65, 97, 59, 85, 32, 46, 11, 97}, offsets);
+    Mesh mesh = before;
+    RemeshOptions options = options_of(SplitPlacement::fewest, 1);
+    options.max_vertices = 200'000;
+    const RemeshReport report = make_delaunay(mesh, options);
+    ASSERT_EQ(report.stop, StopReason::done);
+    EXPECT_EQ(check_delaunay(mesh), "");
+    EXPECT_EQ(check_preserved(before, mesh, report.provenance, 1e-13), "");
+    ASSERT_GT(report.splits_by_shells, 10'000u);
+    EXPECT_LT(report.splits, 500u);
 }
 
 }  // namespace
