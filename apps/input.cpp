@@ -32,8 +32,8 @@ PolygonSoup load_and_mend(const std::string& path, const RepairOptions& options,
     if (rounding == Precision::float32) round_to_float(soup);
     mended.report = repair(soup, options, console.context());
     // Nothing asks for these, and they are as large as the mesh.
-    mended.report.vertex_origin = {};
-    mended.report.face_origin = {};
+    std::vector<VertexId>().swap(mended.report.vertex_origin);
+    std::vector<FaceId>().swap(mended.report.face_origin);
     return soup;
 }
 

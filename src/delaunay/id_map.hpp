@@ -2,6 +2,8 @@
 // A map from 32-bit keys to 32-bit values, of which nothing is ever erased: a hash table in one flat array (open
 // addressing), and a plain array by key where that takes less memory.
 
+#include "base/let_go.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -60,7 +62,7 @@ private:
         values_.assign(universe_, none);
         for (const Slot& slot : slots_)
             if (slot.key != none) place(slot);
-        slots_ = {};
+        let_go(slots_);
     }
 
     void rehash(std::size_t count) {

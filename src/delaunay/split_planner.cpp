@@ -1,5 +1,7 @@
 #include "delaunay/split_planner.hpp"
 
+#include "base/let_go.hpp"
+
 #include <utility>
 
 namespace delmesh {
@@ -8,7 +10,7 @@ SplitChooser& SplitPlanner::chooser() {
     if (chooser_) return *chooser_;
     chooser_.emplace(marked_, bad_, options_);
     if (!baseline_.empty()) chooser_->set_baseline(baseline_);
-    if (is_large_) baseline_ = {};
+    if (is_large_) let_go(baseline_);
     chooser_->resume(plan_);
     plan_ = {};
     return *chooser_;

@@ -88,6 +88,7 @@ void SplitSearch::close_rings(std::uint64_t work) {
         for (const Rung& rung : ring_.rungs()) tried[rung.edge] = true;
         return false;
     });
+    slide_.rest();
 }
 
 void SplitSearch::thin_rings(std::uint64_t work) {
@@ -107,6 +108,7 @@ void SplitSearch::thin_rings(std::uint64_t work) {
             return solved;
         });
     }
+    slide_.rest();
 }
 
 /// Lays new threads around the ring of an edge.

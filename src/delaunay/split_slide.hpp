@@ -1,6 +1,7 @@
 #pragma once
 // Makes parts Delaunay by sliding many points along their edges at once, without adding any.
 
+#include "base/let_go.hpp"
 #include "delaunay/split_model.hpp"
 
 #include <array>
@@ -22,6 +23,9 @@ public:
     /// True if nothing is suspected any more. Gives up after `steps` steps, or as soon as more than `most_points`
     /// points would have to move; then something bad stays suspected.
     bool run(std::size_t steps, std::size_t most_points);
+
+    /// Gives back the memory that it keeps for each edge between two runs.
+    void rest() { let_go(slots_); }
 
 private:
     /// A part that should have a larger sum of cotangents, to first order in how far points move.

@@ -61,11 +61,14 @@ TEST_P(Planner, FindsTheSameWithARest) {
     std::vector<SplitPoint> kept = lent;
     const auto before = sorted(lent);
     ASSERT_FALSE(before.empty());
+    const std::size_t large = 8 * lent.size();
+    lent.reserve(large);
     SplitPlanner resting(marked, start.bad, {1, 1}, lent, 0);
     SplitPlanner awake(marked, start.bad, {1, 1}, kept, never);
     const std::vector<SplitPoint> plan = resting.search(nullptr);
     EXPECT_EQ(sorted(plan), sorted(awake.search(nullptr)));
     EXPECT_EQ(sorted(lent), before);
+    EXPECT_LT(lent.capacity(), large) << "its memory was kept while the chooser had it";
     EXPECT_FALSE(resting.take_better_regions(plan));
     EXPECT_FALSE(awake.take_better_regions(plan));
     // In truth one region costs more than the shells: the same plan comes of it.
