@@ -165,17 +165,19 @@ std::function<void(const GrowthEstimate&)> growth_teller(Outcome& outcome, Conso
 }
 
 void tell_people(const RemeshArguments& arguments, const Outcome& outcome, Console& console) {
+    const bool preserve = arguments.options.mode == RemeshMode::preserve;
     console.say(comparison_table({"before", "after"}, {outcome.before, outcome.after}));
-    console.say("\n" + summary(outcome.report, outcome.watch.seconds()["total"].get<double>(),
-                               arguments.options.mode == RemeshMode::preserve));
+    console.say("\n" + summary(outcome.report, outcome.watch.seconds()["total"].get<double>(), preserve));
     if (outcome.growth && is_mostly_rounding(*outcome.growth) && outcome.report.flat_tolerance == 0)
         console.say(
             fmt::format("all but {} of the {} edges that had to be split are flat but for rounding: "
                         "--flat-tolerance stored lets them flip",
                         with_commas(*outcome.growth->lower_bound_if_flat), with_commas(outcome.growth->lower_bound)));
     if (outcome.report.max_deviation > 0)
-        console.say(fmt::format("flat edges flipped (tolerance {:.3g}): the surface moved by no more than {:.3g}",
-                                outcome.report.flat_tolerance, outcome.report.max_deviation));
+        console.say(fmt::format("{} (tolerance {:.3g}): {} moved by no more than {:.3g}",
+                                preserve ? "flat edges flipped" : "needles flat but for rounding flipped first",
+                                outcome.report.flat_tolerance, preserve ? "the surface" : "features",
+                                outcome.report.max_deviation));
     if (outcome.rounded_by > 0)
         console.say(
             fmt::format("input rounded to floats first: no vertex moved further than {:.3g}", outcome.rounded_by));

@@ -4,10 +4,13 @@
 #include "delaunay/clean.hpp"
 #include "delaunay/features.hpp"
 #include "delaunay/fewest.hpp"
+#include "delaunay/flat_caps.hpp"
+#include "delaunay/flat_rule.hpp"
 #include "delaunay/flip.hpp"
 #include "delaunay/marked_mesh.hpp"
 #include "delaunay/non_delaunay.hpp"
 #include "delaunay/refine.hpp"
+#include "delaunay/unit_frame.hpp"
 #include "delaunay/vertex_limit.hpp"
 
 #include <algorithm>
@@ -144,6 +147,27 @@ Attempt better_way(const Mesh& mesh, std::size_t most_splits, const RemeshOption
     return patient.done() || patient.cancelled() ? std::move(patient) : std::move(published);
 }
 
+/// Where needles that rounding has made stop mode feature short, they lose their long sides first, features or not. Not
+/// done if that is not what stops it.
+Attempt without_flat_caps(const Mesh& mesh, std::size_t most_splits, const RemeshOptions& options,
+                          const Context* context, const RemeshReport& so_far) {
+    const bool may_flatten = options.mode == RemeshMode::feature && options.feature_edges.empty() &&
+                             options.flat_tolerance_rel.rule == FlatRule::automatic;
+    const UnitFrame frame = unit_frame(mesh);
+    const double tolerance = may_flatten ? stored_tolerance(mesh, frame) : 0;
+    Attempt result{{}, so_far};
+    result.report.stop = StopReason::unresolved;
+    if (!(tolerance > 0) || !is_mostly_rounding(mesh, frame, tolerance, context)) return result;
+    Mesh flattened = mesh;
+    const FlatCaps caps = flip_flat_caps(flattened, frame, tolerance, context);
+    if (caps.flips == 0) return result;
+    result = better_way(flattened, most_splits, options, context, so_far);
+    result.report.flips += caps.flips;
+    result.report.flat_tolerance = frame.length(tolerance);
+    result.report.max_deviation = frame.length(caps.moved);
+    return result;
+}
+
 }  // namespace
 
 void flip_surface(Mesh& mesh, const RemeshOptions& options, const Context* context, RemeshReport& report) {
@@ -151,11 +175,17 @@ void flip_surface(Mesh& mesh, const RemeshOptions& options, const Context* conte
         return flip_surface(mesh, Way::published, options, context, report);
 
     // Needles make either way explode, but seldom both: millions of splits are only tried if nothing else is left.
-    const std::size_t few = 100'000 + 10 * mesh.vertex_count();
+    const std::size_t few = 100'000 + 10 * std::min(mesh.vertex_count(), find_non_delaunay(mesh, context).size());
     constexpr std::size_t many = std::numeric_limits<std::uint32_t>::max();
     Attempt best = better_way(mesh, few, options, context, report);
     const bool limited = options.max_vertices != 0 && options.max_vertices <= mesh.vertex_count() + few;
-    if (best.report.stop == StopReason::max_vertices && !limited) {
+    const bool goes_on = best.report.stop == StopReason::max_vertices && !limited;
+    if (!best.done() && !best.cancelled()) {
+        if (goes_on) best.mesh = {};
+        Attempt flattened = without_flat_caps(mesh, few, options, context, report);
+        if (flattened.done() || flattened.cancelled()) best = std::move(flattened);
+    }
+    if (goes_on && !best.done() && !best.cancelled()) {
         best = {};
         best = better_way(mesh, many, options, context, report);
     }

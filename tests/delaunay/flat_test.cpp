@@ -203,6 +203,62 @@ TEST(Growth, IsToldBeforeTheFirstSplit) {
     }
 }
 
+/// Patches of a needle that rounding could have made, a face across its long side, at any angle, and two beside that
+/// one.
+Mesh needles_by_rounding(std::size_t count) {
+    PolygonSoup soup;
+    test::Random random(5);
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto base = static_cast<std::uint32_t>(soup.points.size());
+        const double slope = 0.25 * random.unit();
+        const double depth = random.unit();
+        const Vec3 at = round_to_float({random.unit(), random.unit(), random.unit()});
+        const Vec3 end = round_to_float(at + Vec3{1, slope, 0});
+        const Vec3 middle = round_to_float(at + (end - at) * (0.4 + 0.2 * random.unit()) + Vec3{0, 0, 0x1p-22});
+        const Vec3 below = round_to_float(at + Vec3{0.5, -0.7, -depth});
+        const Vec3 left = round_to_float(at + Vec3{-0.3, -0.8, -depth});
+        const Vec3 right = round_to_float(end + Vec3{0.3, -0.8 - slope, -depth});
+        soup.points.insert(soup.points.end(), {at, end, middle, below, left, right});
+        for (const std::uint32_t corner : {0, 1, 2, 1, 0, 3, 3, 0, 4, 1, 3, 5}) soup.corners.push_back(base + corner);
+    }
+    return Mesh(soup);
+}
+
+TEST(FlatTolerance, ByDefaultModeFeatureLosesTheNeedlesThatStopIt) {
+    const Mesh before = needles_by_rounding(30);
+    RemeshOptions options;
+    options.mode = RemeshMode::feature;
+    options.max_vertices = before.vertex_count();
+    options.flat_tolerance_rel = {FlatRule::given, 0};
+    Mesh stopped = before;
+    EXPECT_EQ(make_delaunay(stopped, options).stop, StopReason::max_vertices);
+    options.flat_tolerance_rel = {};
+    Mesh mesh = before;
+    const RemeshReport report = make_delaunay(mesh, options);
+    EXPECT_EQ(report.stop, StopReason::done);
+    EXPECT_EQ(report.splits, 0u);
+    EXPECT_EQ(report.flips, 30u);
+    EXPECT_GT(report.max_deviation, 0);
+    EXPECT_LE(report.max_deviation, report.flat_tolerance);
+    EXPECT_LE(measure_distance(before, mesh).hausdorff.value, report.max_deviation);
+    EXPECT_EQ(check_delaunay(mesh), "");
+    EXPECT_EQ(validate(mesh), "");
+    // What the user has listed stays, whatever the cost.
+    options.feature_edges = {{VertexId(0u), VertexId(1u)}};
+    Mesh listed = before;
+    EXPECT_EQ(make_delaunay(listed, options).stop, StopReason::max_vertices);
+    EXPECT_EQ(listed.face_count(), before.face_count()) << "what there is, is handed over";
+    // Where the run does not stop short, nothing moves.
+    options.feature_edges = {};
+    options.max_vertices = 0;
+    Mesh whole = before;
+    const RemeshReport exact = make_delaunay(whole, options);
+    EXPECT_EQ(exact.stop, StopReason::done);
+    EXPECT_GE(exact.splits, 30u);
+    EXPECT_EQ(exact.max_deviation, 0);
+    EXPECT_EQ(exact.flat_tolerance, 0);
+}
+
 /// A triangle of height h over its side along x, and a proper one on the other side.
 Mesh cap_over(double length, double at, double height, double beyond) {
     PolygonSoup soup;

@@ -176,7 +176,8 @@ struct RemeshReport {
     /// Mode preserve, placement fewest: what placement shells would have split; 0 where that was not found out.
     std::size_t splits_by_shells = 0;
     /// Mode preserve: the flat tolerance that was used, and an upper bound of how far any point of either surface is
-    /// from the other one, beyond the rounding of split points; both in units of the coordinates.
+    /// from the other one, beyond the rounding of split points; both in units of the coordinates. Mode feature, where
+    /// needles that are flat but for rounding had to go first: the same for that step; more than 0 nowhere else.
     double flat_tolerance = 0;
     double max_deviation = 0;
     /// The edge that stopped the run, where one did.
