@@ -189,15 +189,17 @@ void tell_people(const RemeshArguments& arguments, const Outcome& outcome, Conso
     if (outcome.written) console.say(fmt::format("wrote {}", arguments.output.path));
 }
 
-/// Growth is finite but can be absurd: a sphere stretched by a million wants billions of vertices.
-std::size_t sensible_limit(std::size_t vertices) {
-    return std::max(5 * vertices, vertices + 2'000'000);
+/// Growth is finite but can be absurd: a sphere stretched by a million wants billions of vertices. What a search can
+/// not do with a million more is of no use.
+std::size_t sensible_limit(std::size_t vertices, SplitPlacement placement) {
+    const std::size_t least_more = placement == SplitPlacement::shells ? 2'000'000 : 1'000'000;
+    return std::max(5 * vertices, vertices + least_more);
 }
 
 void complete_options(RemeshArguments& arguments, const PolygonSoup& soup) {
     RemeshOptions& options = arguments.options;
     options.precision = arguments.output.precision();
-    if (options.max_vertices == 0) options.max_vertices = sensible_limit(soup.points.size());
+    if (options.max_vertices == 0) options.max_vertices = sensible_limit(soup.points.size(), options.placement);
     if (options.mode != RemeshMode::feature) return;
     const auto add = [&options](const std::array<std::uint32_t, 2>& edge) {
         options.feature_edges.push_back({VertexId(edge[0]), VertexId(edge[1])});

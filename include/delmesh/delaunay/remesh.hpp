@@ -149,7 +149,7 @@ struct RemeshOptions {
                   .name = "max-vertices",
                   .lowest = 0,
                   .help =
-                      "stop before the output has more; 0: the command stops at 5 times the input, or 2 million more"});
+                      "stop before the output has more; 0: the command stops at 5 times the input, or 1 million more"});
     }
 };
 
