@@ -51,12 +51,13 @@ void check_options(const SimplifyOptions& options) {
         refuse("a level needs at least one vertex");
 }
 
-/// Fine to coarse, each once.
-std::vector<std::size_t> find_targets(const SimplifyOptions& options, std::size_t input_vertices) {
+/// Fine to coarse, each once. A number that was given is taken by its word; a part of a small mesh may be less than can
+/// be had.
+std::vector<std::size_t> find_targets(const SimplifyOptions& options, const Mesh& mesh) {
     if (options.vertices > 0) return {options.vertices};
     if (options.ratio > 0) {
-        const double wanted = std::round(options.ratio * static_cast<double>(input_vertices));
-        return {std::max<std::size_t>(1, static_cast<std::size_t>(wanted))};
+        const double wanted = std::round(options.ratio * static_cast<double>(mesh.vertex_count()));
+        return {std::max({std::size_t{1}, least_vertices(mesh), static_cast<std::size_t>(wanted)})};
     }
     if (options.levels.empty()) return {1};
     std::vector<std::size_t> targets = options.levels;
@@ -261,7 +262,7 @@ SimplifyReport run(Mesh& mesh, const SimplifyOptions& options, ProgressiveMesh* 
     report.input_vertices = mesh.vertex_count();
     const double diagonal = bounding_diagonal(mesh);
     const bool shakes = options.max_quadric_error_rel == 0 && options.placement == Placement::best;
-    const std::vector<std::size_t> targets = find_targets(options, report.input_vertices);
+    const std::vector<std::size_t> targets = find_targets(options, mesh);
     const Tuning tuning = tuning_for(options);
     const StartLimits limits{.vertices = targets.front(), .may_thin = shakes && record == nullptr};
     if (!make_start_delaunay(mesh, options, tuning, limits, report, context)) {

@@ -263,6 +263,17 @@ TEST(Simplify, FloatsStayFloats) {
     EXPECT_TRUE(certify(mesh).certified);
 }
 
+TEST(Simplify, APartOfASmallMeshIsAsLittleAsCanBe) {
+    Mesh mesh = sample("icosphere", 20);
+    SimplifyOptions tenth;
+    tenth.ratio = 0.1;
+    const SimplifyReport report = simplify(mesh, tenth);
+    EXPECT_EQ(report.stop, SimplifyStop::done);
+    EXPECT_EQ(mesh.vertex_count(), 4u);
+    Mesh same = sample("icosphere", 20);
+    EXPECT_EQ(simplify(same, to_vertices(1)).stop, SimplifyStop::blocked) << "a number is meant as it is given";
+}
+
 TEST(Simplify, RefusesWhatMakesNoSense) {
     const auto code = [](const SimplifyOptions& options) {
         Mesh mesh = sample("icosphere", 100);

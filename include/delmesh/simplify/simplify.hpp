@@ -58,7 +58,8 @@ struct SimplifyOptions {
     Placement placement = Placement::best;
     /// The one level wanted, as a number of vertices; 0: see `ratio` and `levels`.
     std::size_t vertices = 0;
-    /// The one level wanted, as a part of the input's vertices; 0: see `vertices` and `levels`.
+    /// The one level wanted, as a part of the input's vertices, but no fewer than its components, handles and boundary
+    /// loops need; 0: see `vertices` and `levels`.
     double ratio = 0;
     /// Several levels in one pass, as numbers of vertices, each at least 1; sorted here from fine to coarse.
     std::vector<std::size_t> levels;
