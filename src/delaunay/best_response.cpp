@@ -89,12 +89,8 @@ std::span<const Part> BestResponse::around_stretch(std::span<const Part> parts, 
     return {first, last};
 }
 
+/// Of what is listed.
 Point2 BestResponse::nearest(const View& view, double a, double b, double& cot) const {
-    if (!view.listed) {
-        const Contact contact = model_.nearest(view.side, a, b);
-        cot = contact.cot;
-        return contact.at;
-    }
     model_.count_work(view.points.size());
     Point2 best = view.points.front();
     cot = cot_of(a, b, best);
@@ -107,29 +103,51 @@ Point2 BestResponse::nearest(const View& view, double a, double b, double& cot) 
     return best;
 }
 
+/// What makes the part [a,b] bad, or false if it is not. Where that takes a walk through a facet, it is asked for no
+/// more than that.
+bool BestResponse::see(double a, double b, std::array<Point2, 2>& at, std::array<double, 2>& cot) const {
+    const auto look_through = [&](std::size_t k, double bound) {
+        const Contact contact = model_.nearest(views_[k].side, a, b, bound);
+        cot[k] = contact.cot;
+        at[k] = contact.at;
+        return contact.cot < bound;
+    };
+    // What the other side may have at least.
+    const auto enough = [&](std::size_t k) { return -cot[k] + 4 * margin_interior * std::fabs(cot[k]); };
+    const auto is_listed = [&](std::size_t k) { return views_[k].listed; };
+    for (std::size_t k = 0; k < 2; ++k) {
+        if (is_listed(k)) at[k] = nearest(views_[k], a, b, cot[k]);
+        if (views_[1 - k].side != SplitModel::none) continue;
+        return is_listed(k) ? cot[k] < margin_boundary : look_through(k, margin_boundary);
+    }
+    if (!is_listed(0) && !is_listed(1)) {
+        if (look_through(0, 0)) {
+            if (!look_through(1, enough(0))) return false;
+        } else if (!look_through(1, 0) || !look_through(0, enough(1))) {
+            return false;
+        }
+    } else if (!is_listed(0) || !is_listed(1)) {
+        const std::size_t k = is_listed(0) ? 1 : 0;
+        if (!look_through(k, enough(1 - k))) return false;
+    }
+    return cot[0] + cot[1] < 0.5 * margin_interior * (std::fabs(cot[0]) + std::fabs(cot[1]));
+}
+
 /// The length of the part [a,b] if it is Delaunay, else the length at which the points that it sees now would let it
 /// be, with one end fixed (a if `up`). For a point at distance x along the edge from the fixed end and y above it, the
 /// cotangent of a part of length l is (x^2 + y^2 - x l) / (y l).
 double BestResponse::step(double a, double b, bool up) const {
-    double value = 0;
-    double size = 0;
+    std::array<Point2, 2> at;
+    std::array<double, 2> cot{};
+    if (!see(a, b, at, cot)) return b - a;
     double constant = 0;
     double slope = 0;
-    bool boundary = false;
-    for (const View& view : views_) {
-        if (view.side == SplitModel::none) {
-            boundary = true;
-            continue;
-        }
-        double cot = 0;
-        const Point2 p = nearest(view, a, b, cot);
-        const double x = up ? p.x - a : b - p.x;
-        value += cot;
-        size += std::fabs(cot);
-        constant += x * x / p.y + p.y;
-        slope += x / p.y;
+    for (std::size_t k = 0; k < 2; ++k) {
+        if (views_[k].side == SplitModel::none) continue;
+        const double x = up ? at[k].x - a : b - at[k].x;
+        constant += x * x / at[k].y + at[k].y;
+        slope += x / at[k].y;
     }
-    if (value >= (boundary ? margin_boundary : 0.5 * margin_interior * size)) return b - a;
     const double length = constant / slope * (1 - 1e-9);
     return length < b - a ? length : (b - a) * (1 - 1e-7);
 }

@@ -49,11 +49,11 @@ private:
     };
     struct Candidate {
         double at = 0;
-        int weight = 0;
+        double reach = -1;  ///< unknown if negative
+        int weight = -1;    ///< unknown if negative
         int cost = 0;
         int before = 0;
-        double reach = -1;  ///< unknown if negative
-        bool done = false;
+        int done = 0;  ///< no bool, as whole words are copied much faster
     };
     /// The points that one side of the edge can see, in its frame; for single triangles only.
     struct View {
@@ -66,6 +66,7 @@ private:
     void look_at(const Side& side, std::uint32_t s, bool far, std::vector<Point2>& points) const;
     [[nodiscard]] std::span<const Part> around_stretch(std::span<const Part> parts, Point2 p, Point2 d) const;
     [[nodiscard]] Point2 nearest(const View& view, double a, double b, double& cot) const;
+    [[nodiscard]] bool see(double a, double b, std::array<Point2, 2>& at, std::array<double, 2>& cot) const;
     [[nodiscard]] double step(double a, double b, bool up) const;
     [[nodiscard]] double reach_up(double from) const;
     [[nodiscard]] double reach_down(double from) const;
@@ -85,7 +86,7 @@ private:
     void add_candidates();
     void add_farthest_candidates();
     void add_quick_candidates();
-    void weigh_candidates();
+    void sort_candidates();
     [[nodiscard]] bool cheapest_chain();
     [[nodiscard]] int cheapest_candidate(int least);
     void plain_chain();
@@ -104,6 +105,7 @@ private:
     std::vector<Cell> cells_;
     std::vector<double> aligned_;
     std::vector<Candidate> candidates_;
+    std::vector<int> ahead_;  ///< their costs, until they are done
     std::vector<double> chosen_;
 };
 

@@ -11,8 +11,6 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Points this near to the line of a side do not see it.
 constexpr double flat = 1e-14;
-/// A place this near to the line of a side may be one of its ends: rounding decides about the angle there.
-constexpr double on_line = 1e-12;
 /// Ties are no violations: what the model can not tell is left to the exact signs at the end.
 constexpr double tie_interior = 1e-13;
 constexpr double tie_boundary = 1e-12;
@@ -30,20 +28,6 @@ std::span<const double> worth_a_look(std::span<const double> points, double a, d
     return points.subspan(first, std::min<std::size_t>(2, points.size() - first));
 }
 
-/// True if no point between p and q, both above the axis, sees [a,b] with a cotangent below `level`: none lies in a
-/// disc.
-bool stays_outside(double a, double b, double level, Point2 p, Point2 q) {
-    if (!(p.y > on_line && q.y > on_line && level < infinity)) return false;
-    const Point2 d = q - p;
-    const double height = level * (b - a);
-    const double at_p = (a - p.x) * (b - p.x) + p.y * (p.y - height);
-    const double at_q = (a - q.x) * (b - q.x) + q.y * (q.y - height);
-    if (!(at_p > 0 && at_q > 0)) return false;
-    const double slope = (2 * p.x - a - b) * d.x + (2 * p.y - height) * d.y;
-    const double length2 = dot(d, d);
-    return slope >= 0 || slope + 2 * length2 <= 0 || slope * slope < 4 * length2 * at_p;
-}
-
 }  // namespace
 
 double largest_angle_on_line(double a, double b, Point2 p, Point2 d) {
@@ -53,7 +37,7 @@ double largest_angle_on_line(double a, double b, Point2 p, Point2 d) {
     const Point2 c{p.x - middle, p.y};
     const double linear = dot(c, d);
     const double constant = dot(c, c) - half * half;
-    if (std::fabs(d.y) < 1e-14 * std::sqrt(length2)) return -linear / length2;
+    if (d.y * d.y < 1e-28 * length2) return -linear / length2;
     const double discriminant = p.y * p.y - d.y * (2 * linear * p.y - constant * d.y) / length2;
     return (std::sqrt(std::max(discriminant, 0.0)) - p.y) / d.y;
 }
@@ -283,8 +267,8 @@ void SplitModel::touch_side(std::uint32_t e, const Side& from, std::uint32_t s, 
             if (!(cot < part.cot[k])) continue;
         }
         if (lost || !single) {
-            const Contact contact = nearest(s, a, part.end);
-            if (contact.cot == part.cot[k] && contact.edge == part.culprit[k]) continue;
+            const Contact contact = nearest(s, a, part.end, lost ? infinity : part.cot[k]);
+            if (contact.cot == part.cot[k] && (!lost || contact.edge == part.culprit[k])) continue;
             cot = contact.cot;
             culprit = contact.edge;
         }
@@ -298,10 +282,10 @@ void SplitModel::touch_side(std::uint32_t e, const Side& from, std::uint32_t s, 
 
 // --- what a part sees ---
 
-Contact SplitModel::nearest(std::uint32_t s, double a, double b) const {
+Contact SplitModel::nearest(std::uint32_t s, double a, double b, double bound) const {
     const Side side = layout_.side(s);
     const Facet& facet = layout_.facet(side.facet);
-    if (!facet.single) return flood(s, a, b);
+    if (!facet.single) return flood(s, a, b, bound);
     ++work_;
     Contact best{cot_of(a, b, side.apex), side.apex, none};
     const std::uint32_t i = s - facet.first_side;
@@ -336,104 +320,6 @@ void SplitModel::scan(const Side& side, std::uint32_t s, double a, double b, Con
                                         [](const Part& part, double value) { return part.end < value; });
     if (above != points.end()) consider(above->end);
     if (above != points.begin()) consider((above - 1)->end);
-}
-
-void SplitModel::start_visit() const {
-    if (seen_.size() < layout_.triangle_count()) seen_.resize(layout_.triangle_count(), 0);
-    ++visit_;
-}
-
-bool SplitModel::visit(std::uint32_t triangle) const {
-    if (seen_[triangle] == visit_) return false;
-    seen_[triangle] = visit_;
-    return true;
-}
-
-/// The smallest cotangent at which a point of the segment from p to q sees [a,b].
-double SplitModel::portal_level(Point2 p, Point2 q, double a, double b) const {
-    ++work_;
-    const Point2 d = q - p;
-    const double u = std::clamp(largest_angle_on_line(a, b, p, d), 0.0, 1.0);
-    const Point2 seen = p + u * d;
-    if (seen.y > on_line) return cot_of(a, b, seen);
-    // From an end the angle on the way into the facet is the outer one of that way.
-    const Point2 inward = u < 0.5 ? d : Point2{-d.x, -d.y};
-    if (inward.y > on_line && std::fabs(seen.x - a) <= on_line) return -inward.x / inward.y;
-    if (inward.y > on_line && std::fabs(seen.x - b) <= on_line) return inward.x / inward.y;
-    return (a - seen.x) * (b - seen.x) <= 0 ? -infinity : infinity;
-}
-
-/// Grows the disc of the points that see [a,b] until it holds one, through the triangles of the facet: the triangle
-/// that the disc reaches first comes first. A point in the part of the disc that is connected to [a,b] within the facet
-/// proves that there is one that sees [a,b] (follow the shortest way back to its last bend), so looking for connected
-/// points is enough, and it respects holes and notches.
-Contact SplitModel::flood(std::uint32_t s, double a, double b) const {
-    const Side side = layout_.side(s);
-    start_visit();
-    heap_.assign(1, {-infinity, side.triangle});
-    Contact best{infinity, {}, none};
-    while (!heap_.empty()) {
-        std::pop_heap(heap_.begin(), heap_.end());
-        const Portal portal = heap_.back();
-        heap_.pop_back();
-        if (portal.level >= best.cot) break;
-        if (!visit(portal.triangle)) continue;
-        const FacetTriangle& triangle = layout_.triangle(portal.triangle);
-        const auto take = [&](Contact found) {
-            found.cot = std::max(found.cot, portal.level);
-            if (found.cot < best.cot) best = found;
-        };
-        work_ += triangle_work_;
-        std::array<Point2, 3> corner;
-        std::array<bool, 3> known{};  // from a triangle that was visited before, at a lower level
-        for (std::size_t i = 0; i < 3; ++i) {
-            corner[i] = side.to_frame(layout_.corner(triangle.corner[i]));
-            if (!triangle.is_side[i] && seen_[triangle.beyond[i]] == visit_) known[i] = known[(i + 1) % 3] = true;
-        }
-        for (std::size_t i = 0; i < 3; ++i) {
-            if (!known[i] && corner[i].y > flat) take({cot_of(a, b, corner[i]), corner[i], none});
-            if (!triangle.is_side[i]) continue;
-            const std::uint32_t other = triangle.beyond[i];
-            Contact found{best.cot, {}, none};
-            if (layout_.edge_at(other) != side.edge && has_points(other)) scan(side, other, a, b, found);
-            if (found.edge != none) take(found);
-        }
-        for (std::size_t i = 0; i < 3; ++i) {
-            if (triangle.is_side[i] || seen_[triangle.beyond[i]] == visit_) continue;
-            const Point2 p = corner[i];
-            const Point2 q = corner[(i + 1) % 3];
-            if (stays_outside(a, b, best.cot, p, q)) continue;
-            const double level = std::max(portal.level, portal_level(p, q, a, b));
-            if (level >= best.cot) continue;
-            heap_.push_back({level, triangle.beyond[i]});
-            std::push_heap(heap_.begin(), heap_.end());
-        }
-    }
-    return best;
-}
-
-bool SplitModel::reaches_through(std::uint32_t s, double a, double b, double level, std::uint32_t t) const {
-    const Side side = layout_.side(s);
-    const std::uint32_t goal = layout_.side(t).triangle;
-    if (goal == side.triangle) return true;
-    start_visit();
-    heap_.assign(1, {level, side.triangle});
-    visit(side.triangle);
-    while (!heap_.empty()) {
-        const FacetTriangle& triangle = layout_.triangle(heap_.back().triangle);
-        heap_.pop_back();
-        for (std::size_t i = 0; i < 3; ++i) {
-            if (triangle.is_side[i] || seen_[triangle.beyond[i]] == visit_) continue;
-            ++work_;
-            const Point2 p = side.to_frame(layout_.corner(triangle.corner[i]));
-            const Point2 q = side.to_frame(layout_.corner(triangle.corner[(i + 1) % 3]));
-            if (stays_outside(a, b, level, p, q) || !(portal_level(p, q, a, b) < level)) continue;
-            if (triangle.beyond[i] == goal) return true;
-            visit(triangle.beyond[i]);
-            heap_.push_back({level, triangle.beyond[i]});
-        }
-    }
-    return false;
 }
 
 }  // namespace delmesh

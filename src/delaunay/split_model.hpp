@@ -7,6 +7,7 @@
 
 #include "delaunay/facet_layout.hpp"
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -82,8 +83,10 @@ public:
     void drop_suspect(std::size_t i);
     void swap_suspects(std::size_t i, std::size_t j) { std::swap(suspects_[i], suspects_[j]); }
 
-    /// What sees the interval [a,b] of a side under the largest angle.
-    [[nodiscard]] Contact nearest(std::uint32_t s, double a, double b) const;
+    /// What sees the interval [a,b] of a side under the largest angle. Where the facet is not a single triangle and
+    /// nothing has a cotangent below `bound`, only that is told: by `bound` as the cotangent.
+    [[nodiscard]] Contact nearest(std::uint32_t s, double a, double b,
+                                  double bound = std::numeric_limits<double>::infinity()) const;
     /// True if the disc of the points that see [a,b] of side s with a cotangent below `level` reaches side t within the
     /// facet.
     [[nodiscard]] bool reaches(std::uint32_t s, double a, double b, double level, std::uint32_t t) const {
@@ -132,6 +135,17 @@ private:
         std::uint32_t count = 0;
         std::uint8_t size_class = 0;
     };
+    /// A way into a triangle, from p to q, two of its corners.
+    struct Gate {
+        std::uint32_t triangle = 0;
+        std::uint32_t from = 0;
+        std::uint32_t to = 0;
+        std::uint32_t before = 0;  ///< the gate on the way to it
+        Point2 p;
+        Point2 q;
+        double level = 0;  ///< that it is open at
+    };
+
     struct Portal {
         double level = 0;
         std::uint32_t triangle = 0;
@@ -149,10 +163,12 @@ private:
     void scan(const Side& side, std::uint32_t s, double a, double b, Contact& best) const;
     [[nodiscard]] bool has_points(std::uint32_t s) const { return point_count(layout_.edge_at(s)) > 0; }
     [[nodiscard]] bool reaches_through(std::uint32_t s, double a, double b, double level, std::uint32_t t) const;
-    [[nodiscard]] Contact flood(std::uint32_t s, double a, double b) const;
-    [[nodiscard]] double portal_level(Point2 p, Point2 q, double a, double b) const;
+    [[nodiscard]] Contact flood(std::uint32_t s, double a, double b, double bound) const;
+    [[nodiscard]] Contact flood_in_order(std::uint32_t s, double a, double b, double bound) const;
+    [[nodiscard]] static double portal_level(Point2 p, Point2 q, double a, double b);
+    [[nodiscard]] bool is_open(Point2 p, Point2 q, double a, double b, double level) const;
     void start_visit() const;
-    bool visit(std::uint32_t triangle) const;
+    void visit(std::uint32_t triangle) const;
 
     FacetLayout layout_;
     std::vector<State> states_;
@@ -166,6 +182,8 @@ private:
     std::uint32_t transaction_ = 0;
     bool in_transaction_ = false;
     mutable std::vector<Portal> heap_;
+    mutable std::vector<std::uint32_t> ahead_;
+    mutable std::vector<Gate> gates_;
     mutable std::vector<std::uint32_t> seen_;
     mutable std::uint32_t visit_ = 0;
     std::uint64_t triangle_work_ = 5;
