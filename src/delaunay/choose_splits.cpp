@@ -16,6 +16,7 @@ constexpr double quick_work_per_split = 200;
 constexpr double construct_work_per_edge = 550;
 constexpr double least_construct_work = 100'000;
 constexpr double least_work = 200e6;
+constexpr double least_work_of_few = 120e6;  ///< for each start, see below
 /// Nobody wants to wait for minutes unasked. A higher effort is asked.
 constexpr double most_work = 0.8e9;
 constexpr double most_block_work = 0.8e9;  ///< in blocks, each round half of it
@@ -88,7 +89,8 @@ void SplitChooser::set_baseline(std::span<const SplitPoint> splits) {
 }
 
 double SplitChooser::default_work() const {
-    return std::clamp(work_per_edge * static_cast<double>(bad_.size()), least_work, most_work);
+    const double least = bad_.size() <= few_edges ? least_work_of_few : least_work;
+    return std::clamp(work_per_edge * static_cast<double>(bad_.size()), least, most_work);
 }
 
 double SplitChooser::full_work() const {

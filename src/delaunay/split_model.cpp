@@ -230,6 +230,7 @@ void SplitModel::cut(std::uint32_t e, std::size_t first, std::size_t last, std::
 void SplitModel::touch_facet(std::uint32_t e, std::uint32_t side, std::span<const double> points, bool removed) {
     const Side from = layout_.side(side);
     const Facet& facet = layout_.facet(from.facet);
+    if (!facet.single) work_ += side_work_ * facet.side_count;  // beside its parts
     for (std::uint32_t s = facet.first_side; s < facet.first_side + facet.side_count; ++s)
         if (layout_.edge_at(s) != e) touch_side(e, from, s, points, removed);
 }

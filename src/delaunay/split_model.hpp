@@ -111,7 +111,10 @@ public:
     [[nodiscard]] std::uint64_t work() const { return work_; }
     void count_work(std::size_t more) const { work_ += more; }
     /// From now on facets of many triangles count for less than they take.
-    void favour_large_facets() { triangle_work_ = 3; }
+    void favour_large_facets() {
+        triangle_work_ = 3;
+        side_work_ = 0;
+    }
 
     static constexpr int base_weight = 10;
 
@@ -187,6 +190,7 @@ private:
     mutable std::vector<std::uint32_t> seen_;
     mutable std::uint32_t visit_ = 0;
     std::uint64_t triangle_work_ = 5;
+    std::uint64_t side_work_ = 2;
     mutable std::uint64_t work_ = 0;
 };
 
