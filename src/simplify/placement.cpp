@@ -1,5 +1,6 @@
 #include "simplify/placement.hpp"
 
+#include "simplify/faults.hpp"
 #include "simplify/paper_region.hpp"
 
 #include <array>
@@ -17,7 +18,8 @@ constexpr int patient_steps = 6;
 bool Placer::fits(Star& star, const Vec3& w) {
     ++evaluations_;
     last_ = find_blocker(mesh_, star, w, fail_first_);
-    if (!tuning_.constrained && last_ >= Blocker::subtending) last_ = Blocker::none;
+    if (!tuning_.constrained && last_ >= Blocker::subtending)
+        if (tuning_.mending == Mending::off || count_faults(mesh_, star, w) <= faults_) last_ = Blocker::none;
     return last_ == Blocker::none;
 }
 
@@ -161,6 +163,12 @@ std::optional<Place> Placer::best_from_afar(Star& star, const EdgeCost& cost, co
 }
 
 std::optional<Place> Placer::best(Star& star, const EdgeCost& cost) {
+    if (tuning_.mending != Mending::off) {
+        faults_ = count_faults(mesh_, star);
+        blocker_ = Blocker::rounding;
+        if (tuning_.mending == Mending::only_faults && faults_ == 0) return std::nullopt;
+        if (tuning_.mending != Mending::no_more && faults_ > 0) --faults_;
+    }
     fail_first_ = 0;
     const auto factors = factorise(cost.steered);
     Vec3 goal = cost.middle;

@@ -51,6 +51,7 @@ private:
     Blocker blocker_ = Blocker::none;
     Blocker last_ = Blocker::none;
     std::size_t witness_ = 0;
+    std::size_t faults_ = 0;      ///< that a place may leave
     std::size_t fail_first_ = 0;  ///< faces are tried from the one on that failed last
     std::size_t evaluations_ = 0;
     std::size_t programs_ = 0;

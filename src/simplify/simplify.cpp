@@ -6,6 +6,7 @@
 #include "delmesh/simplify/progressive_mesh.hpp"
 #include "simplify/decimator.hpp"
 #include "simplify/least_vertices.hpp"
+#include "simplify/mend.hpp"
 #include "simplify/start.hpp"
 #include "simplify/sweeper.hpp"
 
@@ -310,10 +311,46 @@ SimplifyReport run(Mesh& mesh, const SimplifyOptions& options, ProgressiveMesh* 
     return report;
 }
 
+/// Above so many vertices the copy that mending needs is not kept.
+constexpr std::size_t most_mended = 100'000;
+
+bool may_mend(const Mesh& mesh, const SimplifyOptions& options) {
+    return options.placement == Placement::best && options.max_quadric_error_rel == 0 && options.levels.size() < 2 &&
+           mesh.vertex_count() <= most_mended;
+}
+
+/// Where needles stand in each other's way, so that the usual way did not come to its only level. True if it is reached
+/// now.
+bool reach_by_mending(Mesh& mesh, const SimplifyOptions& options, SimplifyReport& report, const Context* context) {
+    SimplifyOptions rest = options;
+    rest.vertices = find_targets(options, mesh).front();
+    rest.ratio = 0;
+    rest.levels.clear();
+    const std::size_t wanted = std::max(rest.vertices, least_vertices(mesh));
+    if (!report.levels.empty() && report.levels.back().vertices <= wanted) return false;
+    if (!mend(mesh, tuning_for(options), options.remesh, wanted, context)) return false;
+    const std::size_t mended_to = mesh.vertex_count();
+    SimplifyReport mended = run(mesh, rest, nullptr, context);
+    if (mended.levels.empty() || mended.remesh || mended.levels.back().vertices > wanted) return false;
+    mended.input_vertices = report.input_vertices;
+    mended.remesh.emplace();
+    mended.thinned_to = mended_to;
+    report = std::move(mended);
+    return true;
+}
+
 }  // namespace
 
 SimplifyReport simplify(Mesh& mesh, const SimplifyOptions& options, const Context* context) {
-    return run(mesh, options, nullptr, context);
+    if (!may_mend(mesh, options)) return run(mesh, options, nullptr, context);
+    SimplifyOptions silent = options;
+    silent.on_level = nullptr;
+    Mesh original = mesh;
+    SimplifyReport report = run(mesh, silent, nullptr, context);
+    const bool misses = report.stop == SimplifyStop::blocked || report.stop == SimplifyStop::not_delaunay;
+    if (misses && report.remesh && reach_by_mending(original, silent, report, context)) mesh = std::move(original);
+    if (options.on_level && !report.levels.empty()) options.on_level(mesh, report.levels.back());
+    return report;
 }
 
 SimplifyReport simplify(Mesh& mesh, const SimplifyOptions& options, ProgressiveMesh& record, const Context* context) {

@@ -4,6 +4,14 @@
 
 namespace delmesh {
 
+/// What a collapse may do to a mesh that is not Delaunay, where `Tuning::constrained` is false.
+enum class Mending : unsigned char {
+    off,          ///< anything
+    no_more,      ///< it leaves no more edges that are not Delaunay than there were around
+    fewer,        ///< ... or fewer, where there were any
+    only_faults,  ///< only where there were any, and it leaves fewer
+};
+
 /// The weights and limits of the decimator, found by measurement (docs/simplify.md).
 struct Tuning {
     int area_power = 2;         ///< a plane counts with this power of its face's area: 1 or 2
@@ -35,6 +43,7 @@ struct Tuning {
     double polish_reach2 = 1.35;          ///< ... and may leave samples farther off by this factor (squared)
     bool paper = false;       ///< the paper's placement, with quadrics that add up (else those of the current faces)
     bool constrained = true;  ///< false: for comparison only; the result is not Delaunay
+    Mending mending = Mending::off;  ///< instead, where the mesh is not Delaunay yet
 
     /// Section 5 of the paper: the quadrics of Garland and Heckbert, and nothing else.
     static Tuning of_the_paper(double crease_cosine) {

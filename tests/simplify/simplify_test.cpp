@@ -118,6 +118,28 @@ TEST(Simplify, WhatNeedsTooManyPointsIsThinnedOutFirst) {
     EXPECT_TRUE(std::ranges::equal(again.points(), mesh.points()));
 }
 
+/// Thinned out as ever, that would still need too many points.
+TEST(Simplify, NeedlesInEachOthersWayAreMended) {
+    Mesh mesh = sample("stretched-sphere", 500);
+    for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+        Vec3 p = mesh.point(VertexId(v));
+        p.z *= 1e5;
+        mesh.set_point(VertexId(v), p);
+    }
+    for (const double ratio : {0.5, 0.1}) {
+        Mesh copy = mesh;
+        SimplifyOptions options;
+        options.ratio = ratio;
+        options.remesh.max_vertices = 20 * mesh.vertex_count();
+        const SimplifyReport report = simplify(copy, options);
+        EXPECT_EQ(report.stop, SimplifyStop::done);
+        EXPECT_LE(copy.vertex_count(), report.levels.back().target);
+        EXPECT_EQ(report.remesh->splits, 0u);
+        EXPECT_GT(report.thinned_to, 0u);
+        expect_sound(copy, test::examine(to_soup(mesh)), "mended");
+    }
+}
+
 /// Each collapse around a vertex of so many faces would look at all samples.
 TEST(Simplify, SamplesAreNotFollowedAroundHubs) {
     for (const std::size_t faces : {900, 1500}) {

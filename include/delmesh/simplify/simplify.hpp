@@ -24,7 +24,8 @@ enum class Placement {
 
 /// Why a level ended where it did.
 enum class SimplifyStop {
-    done,          ///< the level has the number of vertices that was asked for (or the input had no more)
+    done,          ///< the level has the number of vertices that was asked for (or the input had no more; or fewer were
+                   ///< left by mending, see SimplifyReport::thinned_to)
     blocked,       ///< no edge can be collapsed any more; `LevelReport::blocked` says what blocks
     error_limit,   ///< every collapse that is left would exceed SimplifyOptions::max_quadric_error_rel
     not_delaunay,  ///< the input could not be made Delaunay (see SimplifyReport::remesh); nothing was simplified
@@ -122,7 +123,8 @@ struct SimplifyReport {
     /// can not hold (45, or 180: all edges may flip).
     double remesh_angle_deg = 0;
     /// Where remeshing would have stopped short or more than doubled the mesh: to so many vertices the mesh was brought
-    /// before it, by collapses without the Delaunay conditions. 0: that was not needed.
+    /// before it, by collapses without the Delaunay conditions; or, with no splits and angle 0, by mending, where the
+    /// level was not reached that way (docs/simplify.md): this may be fewer than asked for. 0: that was not needed.
     std::size_t thinned_to = 0;
     std::size_t input_vertices = 0;  ///< of the mesh as it came, isolated ones included: what `ratio` refers to
     /// No mesh with the same components, handles and boundary loops has fewer vertices. 0 if nothing was simplified.
