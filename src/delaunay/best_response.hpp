@@ -1,7 +1,7 @@
 #pragma once
 // The best points of one edge while all other edges stay as they are.
 
-#include "delaunay/random.hpp"
+#include "base/random.hpp"
 #include "delaunay/split_model.hpp"
 
 #include <array>

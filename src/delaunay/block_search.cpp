@@ -1,8 +1,8 @@
 #include "delaunay/block_search.hpp"
 
 #include "base/parallel.hpp"
+#include "base/random.hpp"
 #include "delaunay/facet_blocks.hpp"
-#include "delaunay/random.hpp"
 #include "delaunay/split_regions.hpp"
 #include "delaunay/split_search.hpp"
 

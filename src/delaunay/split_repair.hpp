@@ -1,8 +1,8 @@
 #pragma once
 // Makes edges Delaunay one after the other, each by the best response to the others.
 
+#include "base/random.hpp"
 #include "delaunay/best_response.hpp"
-#include "delaunay/random.hpp"
 #include "delaunay/split_model.hpp"
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 #pragma once
 // A large-neighbourhood search for few split points: take some away, repair what becomes bad, keep what is not worse.
 
-#include "delaunay/random.hpp"
+#include "base/random.hpp"
 #include "delaunay/split_model.hpp"
 #include "delaunay/split_regions.hpp"
 #include "delaunay/split_repair.hpp"

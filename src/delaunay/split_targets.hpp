@@ -1,7 +1,7 @@
 #pragma once
 // Points to take away together.
 
-#include "delaunay/random.hpp"
+#include "base/random.hpp"
 #include "delaunay/split_model.hpp"
 
 #include <cstddef>

@@ -1,5 +1,7 @@
 #include "mesh/shape_tools.hpp"
 
+#include "base/random.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,14 +10,6 @@
 namespace delmesh::shapes {
 
 namespace {
-
-/// The splitmix64 finaliser (Steele, Lea, Flood 2014).
-std::uint64_t mix(std::uint64_t x) {
-    x += 0x9e3779b97f4a7c15U;
-    x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
-    x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
-    return x ^ (x >> 31U);
-}
 
 /// Taylor series, for |x| <= pi/4: the first term left out is below 2^-56.
 double sine(double x) {
@@ -38,10 +32,10 @@ double blend(double a, double b, double t) {
 
 }  // namespace
 
-Noise::Noise(std::uint64_t seed) : seed_(mix(seed)) {}
+Noise::Noise(std::uint64_t seed) : seed_(Random(seed).next()) {}
 
 std::uint64_t Noise::bits(std::uint64_t key) const {
-    return mix(seed_ ^ mix(key));
+    return Random(seed_ ^ Random(key).next()).next();
 }
 
 double Noise::value(std::uint64_t key) const {

@@ -1,27 +1,17 @@
 #include "simplify/faults.hpp"
 
-#include "exact/inline.hpp"
+#include "delaunay/non_delaunay.hpp"
 #include "simplify/walk.hpp"
 
 #include <cmath>
 #include <vector>
 
 namespace delmesh {
-bool is_fault(const Mesh& mesh, HalfedgeId h) {
-    const Vec3& p = mesh.point(mesh.origin(h));
-    const Vec3& q = mesh.point(mesh.target(h));
-    const Vec3& apex = mesh.point(mesh.apex(h));
-    const HalfedgeId t = mesh.twin(h);
-    const Sign sign = t.valid() ? exact::delaunay_sign_inline(p, q, apex, mesh.point(mesh.apex(t)))
-                                : exact::right_angle_sign_inline(p, q, apex);
-    return sign == Sign::negative;
-}
-
 std::size_t count_faults(const Mesh& mesh) {
     std::size_t faults = 0;
     for (std::size_t i = 0; i < mesh.halfedge_count(); ++i) {
         const HalfedgeId h(i);
-        faults += mesh.origin(h).valid() && mesh.names_edge(h) && is_fault(mesh, h) ? 1 : 0;
+        faults += mesh.origin(h).valid() && mesh.names_edge(h) && is_non_delaunay(mesh, h) ? 1 : 0;
     }
     return faults;
 }
@@ -31,12 +21,12 @@ std::size_t count_faults(const Mesh& mesh, const Star& star) {
     const auto at = [&](VertexId v, VertexId other) {
         each_edge(mesh, v, [&](HalfedgeId e) {
             const bool is_merged = mesh.origin(e) == other || mesh.target(e) == other;
-            faults += !is_merged && is_fault(mesh, e) ? 1 : 0;
+            faults += !is_merged && is_non_delaunay(mesh, e) ? 1 : 0;
         });
     };
     at(star.u, VertexId());
     if (star.v != star.u) at(star.v, star.u);
-    for (std::size_t i = 0; i < star.face_count(); ++i) faults += is_fault(mesh, star.ring[i].across) ? 1 : 0;
+    for (std::size_t i = 0; i < star.face_count(); ++i) faults += is_non_delaunay(mesh, star.ring[i].across) ? 1 : 0;
     return faults;
 }
 

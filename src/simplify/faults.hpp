@@ -8,9 +8,7 @@
 
 namespace delmesh {
 
-/// Exact: the edge is not Delaunay. That is a *fault*.
-[[nodiscard]] bool is_fault(const Mesh& mesh, HalfedgeId h);
-
+/// A *fault* is an edge that is not Delaunay. Exact.
 [[nodiscard]] std::size_t count_faults(const Mesh& mesh);
 
 /// Of the edges at both ends of the star's edge, and of the ring around them.

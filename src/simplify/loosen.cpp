@@ -6,15 +6,6 @@
 #include <algorithm>
 
 namespace delmesh {
-/// Splitmix64.
-double Loosener::draw() {
-    std::uint64_t x = state_ += 0x9e3779b97f4a7c15;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
-    x ^= x >> 31;
-    return static_cast<double>(x >> 11) * 0x1p-53;
-}
-
 bool Loosener::flip_edge(HalfedgeId h, double allowed2) {
     if (!can_flip_delaunay(mesh_, scale_, h)) return false;
     if (samples_ != nullptr) {
@@ -31,13 +22,13 @@ bool Loosener::flip_edge(HalfedgeId h, double allowed2) {
 /// Towards a neighbour and another one, mostly not far.
 Vec3 Loosener::draw_place() {
     const auto neighbour = [this] {
-        return star_.ring[static_cast<std::size_t>(draw() * static_cast<double>(star_.ring.size()))].point;
+        return star_.ring[static_cast<std::size_t>(random_.uniform() * static_cast<double>(star_.ring.size()))].point;
     };
-    const double part = draw();
+    const double part = random_.uniform();
     const double far = 0.5 * part * part * part;
     const Vec3 first = neighbour();
     const Vec3 second = neighbour();
-    return first * far + second * (far * draw());
+    return first * far + second * (far * random_.uniform());
 }
 
 bool Loosener::move_vertex(VertexId v, double allowed2) {
@@ -59,11 +50,12 @@ bool Loosener::move_vertex(VertexId v, double allowed2) {
 }
 
 std::size_t Loosener::run(const Pass& pass) {
-    state_ = pass.seed;
+    random_ = Random(pass.seed);
     std::size_t changes = 0;
     for (std::size_t i = 0; i < mesh_.halfedge_count(); ++i) {
         const HalfedgeId h(i);
-        if (!mesh_.origin(h).valid() || !mesh_.names_edge(h) || mesh_.is_boundary(h) || draw() < 0.5) continue;
+        if (!mesh_.origin(h).valid() || !mesh_.names_edge(h) || mesh_.is_boundary(h) || random_.uniform() < 0.5)
+            continue;
         changes += flip_edge(h, pass.allowed2) ? 1 : 0;
     }
     for (std::size_t i = 0; i < mesh_.vertex_count(); ++i) {

@@ -1,6 +1,7 @@
 #pragma once
 // Shakes a decimated mesh in which no edge can be collapsed any more, so that some can.
 
+#include "base/random.hpp"
 #include "delmesh/mesh/mesh.hpp"
 #include "simplify/placement.hpp"
 #include "simplify/samples.hpp"
@@ -38,14 +39,13 @@ private:
     bool flip_edge(HalfedgeId h, double allowed2);
     bool move_vertex(VertexId v, double allowed2);
     [[nodiscard]] Vec3 draw_place();
-    [[nodiscard]] double draw();
 
     Mesh& mesh_;
     SurfaceSamples* samples_;
     double scale_;
     std::function<Vec3(const Vec3&)> settle_;
     std::function<void(VertexId, const Vec3&)> moved_;
-    std::uint64_t state_ = 0;
+    Random random_{0};
     Star star_;
 };
 

@@ -1,5 +1,6 @@
 #include "simplify/mend.hpp"
 
+#include "delaunay/non_delaunay.hpp"
 #include "delaunay/vertex_limit.hpp"
 #include "delmesh/mesh/edits.hpp"
 #include "delmesh/mesh/rounding.hpp"
@@ -27,27 +28,18 @@ std::size_t faults_beside(const Mesh& mesh, HalfedgeId h) {
     const HalfedgeId t = mesh.twin(h);
     std::size_t faults = 0;
     for (const HalfedgeId e : {h, Mesh::next(h), Mesh::prev(h), Mesh::next(t), Mesh::prev(t)})
-        faults += is_fault(mesh, e) ? 1 : 0;
+        faults += is_non_delaunay(mesh, e) ? 1 : 0;
     return faults;
 }
 
 }  // namespace
-
-/// Splitmix64.
-double Mender::draw() {
-    std::uint64_t x = state_ += 0x9e3779b97f4a7c15;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
-    x ^= x >> 31;
-    return static_cast<double>(x >> 11) * 0x1p-53;
-}
 
 bool Mender::flip_edge(HalfedgeId h) {
     if (mesh_.is_boundary(h) || !can_flip(mesh_, h) || turns_over(mesh_, scale_, h)) return false;
     const std::size_t before = faults_beside(mesh_, h);
     log_.keep();
     const std::size_t after = faults_beside(mesh_, log_.flip(h));
-    if (after < before || (after == before && draw() < 0.25)) return true;
+    if (after < before || (after == before && random_.uniform() < 0.25)) return true;
     log_.undo();
     return false;
 }
@@ -75,9 +67,9 @@ bool Mender::move_vertex(VertexId v) {
     };
     for (std::size_t i = 0; i < std::min(star_.ring.size(), most_neighbours); ++i)
         look_at(along * dot(star_.ring[i].point, along));
-    if (fewest >= before && draw() < 0.5) found = false;
+    if (fewest >= before && random_.uniform() < 0.5) found = false;
     for (int i = 0; i < draws; ++i) look_at(draw_place(v));
-    if (!found || (fewest == before && draw() < 0.5)) return false;
+    if (!found || (fewest == before && random_.uniform() < 0.5)) return false;
     const Vec3 to = settle_(star_.frame.to_mesh(best));
     if (to == mesh_.point(v)) return false;
     mesh_.set_point(v, to);
@@ -87,27 +79,28 @@ bool Mender::move_vertex(VertexId v) {
 Vec3 Mender::draw_place(VertexId v) {
     const auto local = [&](VertexId at) { return star_.frame.to_local(homes_[at.index()]); };
     const auto neighbour = [&] {
-        return local(star_.ring[static_cast<std::size_t>(draw() * static_cast<double>(star_.ring.size()))].vertex);
+        return local(
+            star_.ring[static_cast<std::size_t>(random_.uniform() * static_cast<double>(star_.ring.size()))].vertex);
     };
-    const double part = draw();
+    const double part = random_.uniform();
     const double far = part * part * part;
     const Vec3 home = local(v);
     const Vec3 first = neighbour();
     const Vec3 second = neighbour();
     Vec3 lift;
-    if (draw() < 0.5) {
+    if (random_.uniform() < 0.5) {
         const Vec3& normal = star_.ring[0].old_normal;
         const double twice_area = std::sqrt(squared_norm(normal));
-        if (twice_area > 0) lift = normal * ((draw() - 0.5) * far / std::sqrt(twice_area));
+        if (twice_area > 0) lift = normal * ((random_.uniform() - 0.5) * far / std::sqrt(twice_area));
     }
-    return home + (first - home) * far + (second - home) * (far * draw()) + lift;
+    return home + (first - home) * far + (second - home) * (far * random_.uniform()) + lift;
 }
 
 std::size_t Mender::run(std::uint64_t seed) {
-    state_ = seed;
+    random_ = Random(seed);
     for (std::size_t i = 0; i < mesh_.halfedge_count(); ++i) {
         const HalfedgeId h(i);
-        if (!mesh_.names_edge(h) || !is_fault(mesh_, h) || flip_edge(h)) continue;
+        if (!mesh_.names_edge(h) || !is_non_delaunay(mesh_, h) || flip_edge(h)) continue;
         for (const VertexId v : {mesh_.origin(h), mesh_.target(h), mesh_.apex(h)}) (void)move_vertex(v);
         if (mesh_.twin(h).valid()) (void)move_vertex(mesh_.apex(mesh_.twin(h)));
     }

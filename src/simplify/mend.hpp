@@ -2,6 +2,7 @@
 // Fewer vertices and fewer edges that are not Delaunay, until none is left: where needles are in each other's way, and
 // remeshing would need more points than anybody wants.
 
+#include "base/random.hpp"
 #include "delmesh/base/context.hpp"
 #include "delmesh/delaunay/remesh.hpp"
 #include "delmesh/mesh/mesh.hpp"
@@ -40,14 +41,13 @@ private:
     bool flip_edge(HalfedgeId h);
     bool move_vertex(VertexId v);
     [[nodiscard]] Vec3 draw_place(VertexId v);
-    [[nodiscard]] double draw();
 
     Mesh& mesh_;
     double scale_;
     std::function<Vec3(const Vec3&)> settle_;
     const std::vector<Vec3>& homes_;  ///< where the vertices were at the start
     EditLog log_;
-    std::uint64_t state_ = 0;
+    Random random_{0};
     Star star_;
 };
 

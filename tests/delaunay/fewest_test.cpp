@@ -1,7 +1,7 @@
 // Placement fewest: the promises of mode preserve, and never more splits than the shells.
 
+#include "base/random.hpp"
 #include "delaunay/preserve_check.hpp"
-#include "delaunay/random.hpp"
 #include "delmesh/base/error.hpp"
 #include "delmesh/delaunay/remesh.hpp"
 #include "delmesh/mesh/shapes.hpp"

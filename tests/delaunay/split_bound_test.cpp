@@ -2,8 +2,8 @@
 
 #include "delaunay/split_bound.hpp"
 
+#include "base/random.hpp"
 #include "delaunay/classify.hpp"
-#include "delaunay/random.hpp"
 #include "delaunay/refine.hpp"
 #include "delaunay/split_model.hpp"
 #include "delmesh/delaunay/remesh.hpp"

@@ -2,8 +2,8 @@
 
 #include "delaunay/split_slide.hpp"
 
+#include "base/random.hpp"
 #include "delaunay/prepared_model.hpp"
-#include "delaunay/random.hpp"
 #include "delaunay/split_ring.hpp"
 #include "delmesh/mesh/polygon_soup.hpp"
 
