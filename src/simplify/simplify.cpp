@@ -1,6 +1,7 @@
 #include "delmesh/simplify/simplify.hpp"
 
 #include "delmesh/base/error.hpp"
+#include "delmesh/measure/certificate.hpp"
 #include "delmesh/measure/statistics.hpp"
 #include "delmesh/mesh/edits.hpp"
 #include "delmesh/simplify/progressive_mesh.hpp"
@@ -328,7 +329,9 @@ bool reach_by_mending(Mesh& mesh, const SimplifyOptions& options, SimplifyReport
     rest.levels.clear();
     const std::size_t wanted = std::max(rest.vertices, least_vertices(mesh));
     if (!report.levels.empty() && report.levels.back().vertices <= wanted) return false;
-    if (!mend(mesh, tuning_for(options), options.remesh, wanted, context)) return false;
+    // Edges without length have no angles that could be wrong.
+    if (!mend(mesh, tuning_for(options), options.remesh, wanted, context) || !certify(mesh, context).certified)
+        return false;
     const std::size_t mended_to = mesh.vertex_count();
     SimplifyReport mended = run(mesh, rest, nullptr, context);
     if (mended.levels.empty() || mended.remesh || mended.levels.back().vertices > wanted) return false;
