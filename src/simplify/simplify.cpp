@@ -242,8 +242,10 @@ void reach(Decimator& decimator, std::size_t target, const Way& way, const Tunin
     report.moves += run_on(decimator, target, way.refits, context);
     if (way.shakes && decimator.vertices() > std::max(target, report.least_vertices)) {
         decimator.close_gaps(numbering);
-        // Nobody waits long for what can not be reached.
-        const std::size_t most = target < report.least_vertices ? 1'000'000 : 24'000'000;
+        // Nobody waits long for what can not be reached, or hardly.
+        const std::size_t most = target < report.least_vertices    ? 1'000'000
+                                 : target == report.least_vertices ? 4'000'000
+                                                                   : 24'000'000;
         shake_free(decimator, std::max(target, report.least_vertices), most, context);
     }
     report.levels.push_back(describe_level(decimator, target, context));
