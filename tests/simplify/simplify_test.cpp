@@ -120,7 +120,7 @@ TEST(Simplify, WhatNeedsTooManyPointsIsThinnedOutFirst) {
 
 /// Thinned out as ever, that would still need too many points.
 TEST(Simplify, NeedlesInEachOthersWayAreMended) {
-    Mesh mesh = sample("stretched-sphere", 500);
+    Mesh mesh = sample("stretched-sphere", 200);
     for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
         Vec3 p = mesh.point(VertexId(v));
         p.z *= 1e5;
@@ -130,7 +130,8 @@ TEST(Simplify, NeedlesInEachOthersWayAreMended) {
         Mesh copy = mesh;
         SimplifyOptions options;
         options.ratio = ratio;
-        options.remesh.max_vertices = 20 * mesh.vertex_count();
+        options.remesh.max_vertices = 3 * mesh.vertex_count();
+        options.remesh.placement = SplitPlacement::shells;  // a search would take longer than all the rest
         const SimplifyReport report = simplify(copy, options);
         EXPECT_EQ(report.stop, SimplifyStop::done);
         EXPECT_LE(copy.vertex_count(), report.levels.back().target);
