@@ -117,6 +117,11 @@ Json run_to_json(const SimplifyArguments& arguments, const Outcome& outcome) {
     return json;
 }
 
+/// See `SimplifyReport::thinned_to`.
+bool is_mended(const SimplifyReport& report) {
+    return report.thinned_to > 0 && report.remesh && report.remesh->splits == 0 && report.remesh_angle_deg == 0;
+}
+
 void tell_people(const Outcome& outcome, double remesh_angle_deg, Console& console) {
     std::vector<std::string> titles{"input"};
     std::vector<Measured> columns{outcome.before};
@@ -125,10 +130,13 @@ void tell_people(const Outcome& outcome, double remesh_angle_deg, Console& conso
         columns.push_back(level.measured);
     }
     console.say(comparison_table(titles, columns));
-    if (outcome.report.remesh)
+    if (is_mended(outcome.report))
+        console.say(fmt::format("\nneedles stood in each other's way: the input was mended first, down to {} vertices",
+                                with_commas(outcome.report.thinned_to)));
+    else if (outcome.report.remesh)
         console.say(fmt::format("\nthe input was not Delaunay and was remeshed first: {} flips, {} splits",
                                 with_commas(outcome.report.remesh->flips), with_commas(outcome.report.remesh->splits)));
-    if (outcome.report.thinned_to > 0)
+    if (outcome.report.thinned_to > 0 && !is_mended(outcome.report))
         console.say(
             fmt::format("before that, needles were thinned out, to {} vertices: as it came, the input needed too many",
                         with_commas(outcome.report.thinned_to)));

@@ -92,14 +92,19 @@ TEST(Simplify, EverySingleCollapseLeavesADelaunayMesh) {
     }
 }
 
-/// Needles that would need more points than allowed are collapsed before they get any.
-TEST(Simplify, WhatNeedsTooManyPointsIsThinnedOutFirst) {
-    Mesh mesh = sample("stretched-sphere", 500);
+Mesh needles(std::size_t faces, double stretch) {
+    Mesh mesh = sample("stretched-sphere", faces);
     for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
         Vec3 p = mesh.point(VertexId(v));
-        p.z *= 32;
+        p.z *= stretch;
         mesh.set_point(VertexId(v), p);
     }
+    return mesh;
+}
+
+/// Needles that would need more points than allowed are collapsed before they get any.
+TEST(Simplify, WhatNeedsTooManyPointsIsThinnedOutFirst) {
+    Mesh mesh = needles(500, 32);
     const SurfaceFacts before = test::examine(to_soup(mesh));
     SimplifyOptions options = to_vertices(mesh.vertex_count() / 10);
     options.remesh.placement = SplitPlacement::shells;
@@ -120,12 +125,7 @@ TEST(Simplify, WhatNeedsTooManyPointsIsThinnedOutFirst) {
 
 /// Thinned out as ever, that would still need too many points.
 TEST(Simplify, NeedlesInEachOthersWayAreMended) {
-    Mesh mesh = sample("stretched-sphere", 200);
-    for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
-        Vec3 p = mesh.point(VertexId(v));
-        p.z *= 1e5;
-        mesh.set_point(VertexId(v), p);
-    }
+    Mesh mesh = needles(200, 1e5);
     for (const double ratio : {0.5, 0.1}) {
         Mesh copy = mesh;
         SimplifyOptions options;
