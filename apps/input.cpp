@@ -26,11 +26,28 @@ void InputOptions::bind(CLI::App& command) {
     bind_options(command, repair_options);
 }
 
+namespace {
+
+/// A cloud of points, or faces none of which is left, would make a Delaunay mesh of nothing.
+void require_faces(const std::string& path, const PolygonSoup& soup, const RepairReport* report = nullptr) {
+    if (soup.face_count() > 0) return;
+    std::string why;
+    for (const Finding& finding : report != nullptr ? report->findings : std::vector<Finding>())
+        why += "; " + sentence(finding);
+    throw Error(ErrorCode::no_surface, why.empty()
+                                           ? fmt::format("{}: expected faces, found {} vertices and no face", path,
+                                                         with_commas(soup.points.size()))
+                                           : fmt::format("{}: expected faces, found none to keep{}", path, why));
+}
+
+}  // namespace
+
 PolygonSoup load_and_mend(const std::string& path, const RepairOptions& options, std::optional<Precision> rounding,
                           const Console& console, Mended& mended) {
     PolygonSoup soup = read_soup(input_path(path), {{}, &mended.damage});
     if (rounding == Precision::float32) round_to_float(soup);
     mended.report = repair(soup, options, console.context());
+    if (!mended.report.cancelled) require_faces(path, soup, &mended.report);
     // Nothing asks for these, and they are as large as the mesh.
     std::vector<VertexId>().swap(mended.report.vertex_origin);
     std::vector<FaceId>().swap(mended.report.face_origin);
@@ -65,7 +82,11 @@ PolygonSoup read_whole(const std::string& path) {
 
 PolygonSoup load_soup(const std::string& path, const InputOptions& options, const Console& console,
                       std::optional<Mended>* mended) {
-    if (!options.repair) return read_whole(path);
+    if (!options.repair) {
+        PolygonSoup soup = read_whole(path);
+        require_faces(path, soup);
+        return soup;
+    }
     Mended found;
     PolygonSoup soup = load_and_mend(path, options.repair_options, {}, console, found);
     if (found.changed() && !console.is_quiet())

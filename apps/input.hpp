@@ -33,11 +33,13 @@ struct Mended {
     [[nodiscard]] bool changed() const { return damage.count > 0 || report.changed; }
 };
 
-/// Reads a file as far as it can be read and makes a manifold of it.
+/// Reads a file as far as it can be read and makes a manifold of it. Throws `Error` (no_surface) if it has no faces
+/// then, and says what became of them.
 [[nodiscard]] PolygonSoup load_and_mend(const std::string& path, const RepairOptions& options,
                                         std::optional<Precision> rounding, const Console& console, Mended& mended);
 
-/// Reads a file. With --repair it becomes a manifold, and what was wrong is told on standard error.
+/// Reads a file, which must hold faces. With --repair it becomes a manifold, and what was wrong is told on standard
+/// error.
 [[nodiscard]] PolygonSoup load_soup(const std::string& path, const InputOptions& options, const Console& console,
                                     std::optional<Mended>* mended = nullptr);
 

@@ -193,6 +193,24 @@ TEST_F(Contract, InputsThatCanNotBeUsedAre3) {
     EXPECT_EQ(delmesh("remesh fan.off out.ply --repair --quiet").exit_code, 0);
 }
 
+TEST_F(Contract, InputsWithoutASurfaceAre3) {
+    write("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
+    write("lines.off", "OFF 3 1 0\n0 0 0\n1 1 1\n2 2 2\n3 0 1 2\n");
+    for (const char* command :
+         {"check points.obj", "stats points.obj", "remesh points.obj out.ply",
+          "simplify points.obj out.ply --ratio 0.5", "repair points.obj out.ply", "check lines.off --repair",
+          "repair lines.off out.ply", "remesh lines.off out.ply --repair"}) {
+        const test::Ran ran = delmesh(command);
+        EXPECT_EQ(ran.exit_code, 3) << command;
+        EXPECT_TRUE(ran.tells_one_sentence()) << command;
+        EXPECT_EQ(ran.out, "") << command;
+    }
+    EXPECT_NE(delmesh("check points.obj").err.find("found 3 vertices and no face"), std::string::npos);
+    const std::string of_lines = delmesh("repair lines.off out.ply").err;
+    EXPECT_NE(of_lines.find("1 face has no area"), std::string::npos) << of_lines;
+    EXPECT_EQ(files(), (Keys{"lines.off", "points.obj"}));
+}
+
 TEST_F(Contract, StoppingShortIs5AndWritesOnlyWhatIsAskedFor) {
     ASSERT_EQ(delmesh("sample plate a.ply --faces 200").exit_code, 0);
     const test::Ran ran = delmesh("remesh a.ply b.ply --effort 0 --max-vertices 1");

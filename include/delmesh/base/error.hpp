@@ -20,6 +20,7 @@ enum class ErrorCode {
     non_manifold_vertex,  ///< the faces at a vertex form more than one fan; elements: vertices
     zero_length_edge,     ///< two ends of an edge coincide; elements: vertex pairs, flattened
     degenerate_geometry,  ///< a zero-area face that can not be flipped away; elements: vertices
+    no_surface,           ///< a mesh without faces where one with faces is needed
     too_large,            ///< more elements than 32-bit ids can name
     file_not_readable,
     file_not_writable,
@@ -48,6 +49,8 @@ enum class ErrorCode {
             return "zero_length_edge";
         case ErrorCode::degenerate_geometry:
             return "degenerate_geometry";
+        case ErrorCode::no_surface:
+            return "no_surface";
         case ErrorCode::too_large:
             return "too_large";
         case ErrorCode::file_not_readable:
