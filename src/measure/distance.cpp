@@ -31,8 +31,7 @@ void check_options(const DistanceOptions& options) {
 
 void check_view(const TriangleView& view, char which) {
     if (view.corners.empty())
-        throw Error(ErrorCode::bad_argument,
-                    fmt::format("mesh {} has no faces, so it has no surface to measure", which));
+        throw Error(ErrorCode::no_surface, fmt::format("mesh {} has no faces, so it has no surface to measure", which));
     for (std::size_t i = 0; i < view.corners.size(); ++i) {
         const std::uint32_t v = view.corners[i];
         if (v >= view.points.size())

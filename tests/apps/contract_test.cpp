@@ -199,7 +199,7 @@ TEST_F(Contract, InputsWithoutASurfaceAre3) {
     for (const char* command :
          {"check points.obj", "stats points.obj", "remesh points.obj out.ply",
           "simplify points.obj out.ply --ratio 0.5", "repair points.obj out.ply", "check lines.off --repair",
-          "repair lines.off out.ply", "remesh lines.off out.ply --repair"}) {
+          "repair lines.off out.ply", "distance points.obj lines.off", "remesh lines.off out.ply --repair"}) {
         const test::Ran ran = delmesh(command);
         EXPECT_EQ(ran.exit_code, 3) << command;
         EXPECT_TRUE(ran.tells_one_sentence()) << command;

@@ -202,7 +202,7 @@ TEST(Distance, RefusesWhatItCanNotMeasure) {
         ADD_FAILURE() << "nothing was thrown";
         return ErrorCode::file_format;
     };
-    EXPECT_EQ(code(PolygonSoup(), few()), ErrorCode::bad_argument);
+    EXPECT_EQ(code(PolygonSoup(), few()), ErrorCode::no_surface);
     EXPECT_EQ(code(soup_of({{0, 0, 0}}, {0, 0, 1}), few()), ErrorCode::index_out_of_range);
     EXPECT_EQ(code(soup_of({{0, NAN, 0}}, {0, 0, 0}), few()), ErrorCode::not_finite);
     DistanceOptions options = few();

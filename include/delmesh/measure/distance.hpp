@@ -94,7 +94,7 @@ struct DistanceReport {
 ///
 /// The enclosure is proved: all rounding is accounted for (docs/distance.md).
 ///
-/// Throws `Error` (bad_argument) for options out of range and for a mesh without faces.
+/// Throws `Error` (bad_argument) for options out of range, (no_surface) for a mesh without faces.
 /// Cost: O((faces + samples) log faces); 0.2 to 1 microseconds per sample on one core.
 /// Source: Cignoni, Rocchini, Scopigno, Metro, 1998; Tang, Lee, Kim, Interactive Hausdorff distance, 2009.
 [[nodiscard]] DistanceReport measure_distance(const Mesh& a, const Mesh& b, const DistanceOptions& options = {},
