@@ -3,6 +3,7 @@
 #include "base/sort_unique.hpp"
 #include "delaunay/choose_splits.hpp"
 #include "delaunay/probe_splits.hpp"
+#include "delaunay/sheets.hpp"
 #include "delaunay/split_planner.hpp"
 #include "delaunay/split_point.hpp"
 #include "delaunay/vertex_limit.hpp"
@@ -20,6 +21,9 @@ constexpr int most_mendings = 3;
 /// Where construction and shells together need more splits than these, shells alone are tried instead.
 constexpr std::size_t most_splits_per_edge = 20;
 constexpr std::size_t least_most_splits = 500;
+
+/// Rounds of parting sheets that want the same edges; points in a plan for the next sheets may bring new ones.
+constexpr int most_partings = 12;
 
 constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
 
@@ -75,13 +79,14 @@ std::vector<std::array<VertexId, 2>> input_edges(const Trial& trial, const std::
 class Contest {
 public:
     Contest(const MarkedMesh& marked, const RemeshOptions& options, const Context* context, const RefineStart& start,
-            const RemeshReport& report, bool has_other_way)
+            const RemeshReport& report, bool has_other_way, bool may_part = true)
         : marked_(marked),
           options_(options),
           context_(context),
           start_(start),
           report_(report),
-          has_other_way_(has_other_way) {}
+          has_other_way_(has_other_way),
+          may_part_(may_part) {}
 
     TrialPointer run() {
         // Needles make shells explode; then what is found without them is all that is needed.
@@ -117,6 +122,7 @@ private:
         const std::vector<SplitPoint> plan = probe_splits(marked_, options_, start_, below, context_);
         if (plan.empty()) return nullptr;
         auto trial = std::make_unique<Trial>(marked_, report_, plan.size());
+        trial->planned = marked_.split_count() + plan.size();
         std::vector<HalfedgeId> left = carry_out(trial->marked, options_, context_, trial->report, start_, plan);
         if (trial->done()) refine_and_clean(trial->marked, options_, context_, trial->report, std::move(left));
         return trial->beats(shells.report) ? std::move(trial) : nullptr;
@@ -138,6 +144,13 @@ private:
         SplitPlanner planner(marked_, start_.bad, {static_cast<int>(options_.effort), options_.seed}, shells.splits);
         TrialPointer trial = by_search(planner);
         const bool is_broken = misses_its_plan(*trial) && !planner.leaves_open();
+        if (is_broken && may_part_ && !blocked_.plan.empty() && !trial->cancelled()) {
+            if (!trial->done()) trial.reset();
+            TrialPointer parted = by_parting();
+            if (parted->cancelled() || !trial || parted->beats(trial->report)) trial = std::move(parted);
+            if (trial->cancelled()) return trial;
+            if (!misses_its_plan(*trial) && trial->beats(shells.report)) return trial;
+        }
         // Rounding broke what was found. It may leave alone what takes less searching.
         for (const bool quick : {false, true}) {
             if (!is_broken || trial->cancelled() || (quick && !shells.done())) break;
@@ -167,6 +180,46 @@ private:
         return by_plan(planner, planner.close_by_baseline());
     }
 
+    void note_blocked(Trial& trial, const std::vector<SplitPoint>& plan, const std::vector<HalfedgeId>& left) {
+        const auto is_blocked = [&](HalfedgeId h) { return edge_in_the_way(trial.marked, h).valid(); };
+        if (left.size() < blocked_.open && std::any_of(left.begin(), left.end(), is_blocked))
+            blocked_ = {left.size(), plan};
+    }
+
+    /// Carries out the plan that sheets of the surface break, parts these, and searches again for what is not Delaunay
+    /// by then. The points that are there stay, so each round has less to do.
+    TrialPointer by_parting() {
+        TrialPointer best;
+        RefineStart start;
+        TrialPointer base = part_by_plan(start);
+        for (int round = 1; base->done(); ++round) {
+            Contest next(base->marked, options_, context_, start, base->report, true, false);
+            TrialPointer trial = next.run();
+            const bool is_over = trial->cancelled() || !misses_its_plan(*trial) || next.blocked_.plan.empty();
+            if (!best || trial->cancelled() || trial->beats(best->report)) best = std::move(trial);
+            if (is_over || round == most_partings) break;
+            trial.reset();
+            base = next.part_by_plan(start);
+        }
+        if (!best || base->cancelled()) return base;
+        best->report.splits_by_shells = report_.splits_by_shells;
+        return best;
+    }
+
+    /// The mesh to go on from, with what is left to do.
+    TrialPointer part_by_plan(RefineStart& start) {
+        std::vector<HalfedgeId> left;
+        TrialPointer trial = carry_out_plan(blocked_.plan, unlimited, left);
+        if (trial->done()) left = part_sheets(trial->marked, options_, trial->report, std::move(left));
+        start.bad.clear();
+        for (const HalfedgeId h : left)
+            if (!trial->marked.is_planar(h)) start.bad.push_back(trial->mesh.edge(h));
+        sort_unique(start.bad);
+        start.queue = std::move(left);
+        trial->marked.fix_vertices();
+        return trial;
+    }
+
     [[nodiscard]] static bool misses_its_plan(const Trial& trial) {
         return !trial.done() || trial.report.splits > trial.planned + trial.planned / 10 + 10;
     }
@@ -187,6 +240,7 @@ private:
                 continue;
             }
             const std::size_t still_open = left.size();
+            note_blocked(*trial, plan, left);
             finish(*trial, std::min(most, most_splits_), std::move(left));
             if (trial->report.stop == StopReason::max_vertices) failed_.push_back({still_open, std::move(plan)});
             return trial;
@@ -195,7 +249,7 @@ private:
 
     TrialPointer carry_out_plan(const std::vector<SplitPoint>& plan, std::size_t most, std::vector<HalfedgeId>& left) {
         auto trial = std::make_unique<Trial>(marked_, report_, plan.size() + plan.size() / 8);
-        trial->planned = plan.size();
+        trial->planned = marked_.split_count() + plan.size();
         const RemeshOptions options = with_at_most_splits(options_, marked_.mesh(), most);
         if (is_cancelled(context_)) {
             trial->report.stop = StopReason::cancelled;
@@ -247,9 +301,11 @@ private:
     const RefineStart& start_;
     const RemeshReport& report_;
     const bool has_other_way_;
+    const bool may_part_;
     std::size_t most_splits_ = unlimited;   ///< of a plan that is carried out
     std::size_t most_by_plan_ = unlimited;  ///< the same, where the shells end
     std::vector<FailedPlan> failed_;
+    FailedPlan blocked_{unlimited, {}};  ///< of the plans with sheets in the way of flips the one that leaves least
 };
 
 /// Effort 0: shells finish what a quick construction leaves open. Alone they are run only for as long as they need

@@ -10,7 +10,8 @@ MarkedMesh::MarkedMesh(Mesh& mesh, std::vector<Mark> marks, std::vector<FaceId> 
     : mesh_(mesh),
       marks_(std::move(marks)),
       facets_(std::move(facets)),
-      input_vertices_(mesh.vertex_count()) {}
+      input_vertices_(mesh.vertex_count()),
+      fixed_vertices_(input_vertices_) {}
 
 bool MarkedMesh::is_flippable(HalfedgeId h) {
     const HalfedgeId t = mesh_.twin(h);
@@ -26,12 +27,14 @@ MarkedMesh::MarkedMesh(Mesh& copy, const MarkedMesh& other)
       facets_(other.facets_),
       splits_(other.splits_),
       input_vertices_(other.input_vertices_),
+      fixed_vertices_(other.fixed_vertices_),
       flat_(other.flat_),
       merged_(other.merged_) {}
 
 MarkedMesh::MarkedMesh(Mesh& empty, const MarkedMesh& other, std::size_t splits)
     : mesh_(empty),
       input_vertices_(other.input_vertices_),
+      fixed_vertices_(other.fixed_vertices_),
       flat_(other.flat_),
       merged_(other.merged_) {
     // Room first: to copy once and to grow afterwards would copy twice.
@@ -52,6 +55,7 @@ void MarkedMesh::take(MarkedMesh&& other) {
     facets_ = std::move(other.facets_);
     splits_ = std::move(other.splits_);
     input_vertices_ = other.input_vertices_;
+    fixed_vertices_ = other.fixed_vertices_;
     flat_ = std::move(other.flat_);
     merged_ = std::move(other.merged_);
     hubs_.clear();

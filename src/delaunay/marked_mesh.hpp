@@ -55,9 +55,12 @@ public:
     [[nodiscard]] std::size_t input_vertices() const { return input_vertices_; }
     [[nodiscard]] std::size_t split_count() const { return splits_.size(); }
     [[nodiscard]] const std::vector<SplitPoint>& splits() const { return splits_; }
-    [[nodiscard]] bool is_input(VertexId v) const { return v.index() < input_vertices_; }
+    /// Vertices of the input, and split vertices that are fixed, stay.
+    [[nodiscard]] bool is_input(VertexId v) const { return v.index() < fixed_vertices_; }
     /// Where split vertex v lies. Requires !is_input(v).
     [[nodiscard]] const SplitPoint& split_point(VertexId v) const { return splits_[v.index() - input_vertices_]; }
+    /// From now on all vertices count as those of an input: what they part are edges of their own.
+    void fix_vertices() { fixed_vertices_ = mesh_.vertex_count(); }
 
     /// True if the edge of h may be flipped (see can_flip) and the new edge has a length. Cost: O(1), in effect.
     [[nodiscard]] bool is_flippable(HalfedgeId h);
@@ -99,6 +102,7 @@ private:
     std::vector<FaceId> facets_;
     std::vector<SplitPoint> splits_;
     std::size_t input_vertices_;
+    std::size_t fixed_vertices_;
     HubIndex hubs_;
     FlatFacets flat_;
     /// Who went, and into whom, since the last `compact_all`.

@@ -3,6 +3,7 @@
 #include "base/sort_unique.hpp"
 #include "delaunay/clean.hpp"
 #include "delaunay/non_delaunay.hpp"
+#include "delaunay/sheets.hpp"
 #include "delaunay/splitter.hpp"
 
 #include <algorithm>
@@ -12,6 +13,9 @@
 
 namespace delmesh {
 namespace {
+
+/// What parts sheets may make more of them want the same edge.
+constexpr std::size_t most_partings_per_edge = 8;
 
 class Refinement {
 public:
@@ -54,6 +58,23 @@ public:
         return std::move(splits_);
     }
 
+    std::vector<HalfedgeId> part_sheets() {
+        std::vector<HalfedgeId> left;
+        const std::size_t most = mesh_.vertex_count() + most_partings_per_edge * splits_.size();
+        while (next_split_ < splits_.size() && !splitter_.stopped()) {
+            const HalfedgeId h = splits_[next_split_++];
+            if (!is_non_delaunay(mesh_, h)) continue;
+            if (may_flip(h) || (mesh_.vertex_count() < most && part_sheets_at(h))) {
+                suspects_.push_back(h);
+                flip_suspects();
+            } else {
+                left.push_back(h);
+            }
+        }
+        std::erase_if(left, [&](HalfedgeId h) { return !is_non_delaunay(mesh_, h); });
+        return left;
+    }
+
     void split_rest() {
         while (!splitter_.stopped() && next_split_ < splits_.size()) {
             treat(splits_[next_split_++]);
@@ -88,12 +109,22 @@ private:
             const HalfedgeId h = suspects_.back();
             suspects_.pop_back();
             if (!is_non_delaunay(mesh_, h)) continue;
-            if (marked_.is_planar(h) && marked_.is_flippable(h) && marked_.keeps_unfolded(h)) {
+            if (may_flip(h)) {
                 flip_edge(h);
             } else {
                 splits_.push_back(h);
             }
         }
+    }
+
+    bool may_flip(HalfedgeId h) { return marked_.is_planar(h) && marked_.is_flippable(h) && marked_.keeps_unfolded(h); }
+
+    /// False if no edge is in the way of a flip there, or none that can be split.
+    bool part_sheets_at(HalfedgeId h) {
+        const HalfedgeId other = edge_in_the_way(marked_, h);
+        if (!other.valid()) return false;
+        return splitter_.split_between(mesh_.origin(other), mesh_.target(other), place_of_parting(marked_, other))
+            .valid();
     }
 
     void flip_edge(HalfedgeId h) {
@@ -158,6 +189,11 @@ RefineStart flip_planar_edges(MarkedMesh& marked, const RemeshOptions& options, 
 std::vector<HalfedgeId> carry_out(MarkedMesh& marked, const RemeshOptions& options, const Context* context,
                                   RemeshReport& report, const RefineStart& start, std::span<const SplitPoint> plan) {
     return Refinement(marked, options, context, report, start.queue).carry_out(plan);
+}
+
+std::vector<HalfedgeId> part_sheets(MarkedMesh& marked, const RemeshOptions& options, RemeshReport& report,
+                                    std::vector<HalfedgeId> left) {
+    return Refinement(marked, options, nullptr, report, std::move(left)).part_sheets();
 }
 
 void split_rest(MarkedMesh& marked, const RemeshOptions& options, const Context* context, RemeshReport& report,

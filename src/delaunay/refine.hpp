@@ -26,6 +26,12 @@ RefineStart flip_planar_edges(MarkedMesh& marked, const RemeshOptions& options, 
                                                 const Context* context, RemeshReport& report, const RefineStart& start,
                                                 std::span<const SplitPoint> plan);
 
+/// Where sheets of a surface lie on each other, two facets may want an edge between the same two vertices, and only one
+/// can have it. A vertex inside that one makes room for the other. `left`: edges that are not Delaunay, planar ones
+/// among them as nothing else is in the way of their flips. Returns those that are not after that, some twice.
+[[nodiscard]] std::vector<HalfedgeId> part_sheets(MarkedMesh& marked, const RemeshOptions& options,
+                                                  RemeshReport& report, std::vector<HalfedgeId> left);
+
 /// The second step: splits at shells and flips, until every edge is Delaunay or a reason to stop turns up.
 void split_rest(MarkedMesh& marked, const RemeshOptions& options, const Context* context, RemeshReport& report,
                 std::vector<HalfedgeId> queue);

@@ -10,7 +10,8 @@
 namespace delmesh {
 
 /// The point (1 - t) * a + t * b on the input edge from a to b, a < b, 0 < t < 1, both input vertices. In the rare
-/// case of a point inside a facet (see docs/provenance.md) `a` and `b` are the ends of the split edge at that time.
+/// case of a point inside a facet, or put in after one (see docs/provenance.md), `a` and `b` are the ends of the split
+/// edge at that time.
 struct SplitPoint {
     VertexId a;
     VertexId b;
