@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace delmesh {
 namespace {
@@ -80,10 +81,16 @@ Vec3 FacetLayout::scaled(VertexId v) const {
     return second_scale_ * (scale_ * mesh_.point(v));
 }
 
+/// No memory holds so many.
+void FacetLayout::check_size(std::size_t count) {
+    if (count > mask) throw std::length_error("FacetLayout");
+}
+
 std::uint32_t FacetLayout::name_edge(HalfedgeId h) {
     const HalfedgeId name(mesh_.edge(h).value());
     const std::uint32_t known = edge_of_halfedge_.find(name.value());
     if (known != none) return known;
+    check_size(edges_.size());
     const auto e = static_cast<std::uint32_t>(edges_.size());
     edge_of_halfedge_.insert(name.value(), e);
     Edge edge;
@@ -115,6 +122,7 @@ void FacetLayout::expect(std::size_t facets) {
 std::uint32_t FacetLayout::facet_of(FaceId f) {
     const std::uint32_t known = facet_of_face_.find(f.value());
     if (known != none) return known;
+    check_size(facets_.size());
     const auto id = static_cast<std::uint32_t>(facets_.size());
     gather(f, id);
     Facet facet;
@@ -126,7 +134,7 @@ std::uint32_t FacetLayout::facet_of(FaceId f) {
         for (int i = 0; i < 3; ++i) corners[i] = scaled(mesh_.origin(HalfedgeId(3 * f.value() + i)));
         const Plane plane = plane_of(corners);
         SideRecord record;
-        record.facet = id;
+        record.facet = id & mask;
         record.place = static_cast<std::uint32_t>(corners_.size());
         for (const Vec3& corner : corners) corners_.push_back(plane(corner));
         for (std::uint32_t i = 0; i < 3; ++i) add_side(HalfedgeId(3 * f.value() + i), record);
@@ -184,7 +192,7 @@ std::uint32_t FacetLayout::corner_of(VertexId v) const {
 
 void FacetLayout::add_triangle(FaceId f, std::uint32_t facet, std::uint32_t first_triangle) {
     SideRecord record;
-    record.facet = facet;
+    record.facet = facet & mask;
     record.place = static_cast<std::uint32_t>(triangles_.size());
     record.single = false;
     FacetTriangle& triangle = triangles_.emplace_back();
@@ -206,13 +214,10 @@ void FacetLayout::add_triangle(FaceId f, std::uint32_t facet, std::uint32_t firs
 }
 
 void FacetLayout::add_side(HalfedgeId h, SideRecord record) {
-    const auto first = static_cast<std::uint8_t>(h.value() % 3);
-    const auto second = static_cast<std::uint8_t>((first + 1) % 3);
     const bool forward = mesh_.origin(h) < mesh_.target(h);
-    record.start = forward ? first : second;
-    record.end = forward ? second : first;
-    record.opposite = static_cast<std::uint8_t>((first + 2) % 3);
-    record.edge = name_edge(h);
+    record.corner = (h.value() + 2) % 3 & 3;
+    record.forward = forward;
+    record.edge = name_edge(h) & mask;
     const auto s = static_cast<std::uint32_t>(records_.size());
     records_.push_back(record);
     const Side made = side(s);

@@ -109,15 +109,17 @@ public:
 private:
     /// What a side is computed from: that takes no longer than to fetch all of it from memory.
     struct SideRecord {
-        std::uint32_t edge = 0;
-        std::uint32_t facet = 0;
+        std::uint32_t edge : 30 = 0;
+        std::uint32_t corner : 2 = 0;  ///< 0, 1 or 2: of the triangle, opposite to the side
+        std::uint32_t facet : 30 = 0;
+        bool forward : 1 = true;  ///< the side runs from its smaller vertex to the larger one
+        bool single : 1 = true;
         std::uint32_t place = 0;  ///< of a single triangle its first corner; else the triangle
-        std::uint8_t start = 0;   ///< 0, 1 or 2: which corner of the triangle
-        std::uint8_t end = 0;
-        std::uint8_t opposite = 0;
-        bool single = true;
     };
+    static_assert(sizeof(SideRecord) == 12);
+    static constexpr std::uint32_t mask = (1u << 30) - 1;
 
+    static void check_size(std::size_t count);
     std::uint32_t name_edge(HalfedgeId h);
     void gather(FaceId f, std::uint32_t facet);
     void lay_corners();
@@ -147,15 +149,17 @@ inline Side FacetLayout::side(std::uint32_t s) const {
     side.edge = record.edge;
     side.facet = record.facet;
     side.triangle = record.single ? 0 : record.place;
-    const auto point = [&](std::uint8_t i) {
+    const auto point = [&](std::uint32_t i) {
         return corners_[record.single ? record.place + i : triangles_[record.place].corner[i]];
     };
-    side.start = point(record.start);
-    side.along = point(record.end) - side.start;
+    const std::uint32_t after = record.corner == 2 ? 0 : record.corner + 1;
+    const std::uint32_t before = record.corner == 0 ? 2 : record.corner - 1;
+    const bool forward = record.forward;
+    side.start = point(forward ? after : before);
+    side.along = point(forward ? before : after) - side.start;
     side.x_row = 1 / dot(side.along, side.along) * side.along;
-    const bool forward = record.end == (record.start + 1) % 3;
     side.y_row = (forward ? 1.0 : -1.0) * Point2{-side.x_row.y, side.x_row.x};
-    side.apex = side.to_frame(point(record.opposite));
+    side.apex = side.to_frame(point(record.corner));
     return side;
 }
 

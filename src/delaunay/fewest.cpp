@@ -79,18 +79,19 @@ std::vector<std::array<VertexId, 2>> input_edges(const Trial& trial, const std::
 class Contest {
 public:
     Contest(const MarkedMesh& marked, const RemeshOptions& options, const Context* context, const RefineStart& start,
-            const RemeshReport& report, bool has_other_way, bool may_part = true)
+            const RemeshReport& report, bool has_other_way, Mesh* spare, bool may_part = true)
         : marked_(marked),
           options_(options),
           context_(context),
           start_(start),
           report_(report),
           has_other_way_(has_other_way),
+          spare_(spare),
           may_part_(may_part) {}
 
     TrialPointer run() {
         // Needles make shells explode; then what is found without them is all that is needed.
-        const std::size_t few = 100'000 + 20 * start_.bad.size();
+        const std::size_t few = 100'000 + (has_other_way_ ? 10 : 20) * start_.bad.size();
         TrialPointer best = by_shells(few);
         if (best->report.stop == StopReason::max_vertices && best->report.splits >= few) {
             most_splits_ = few;
@@ -111,7 +112,9 @@ private:
     /// Stops with `max_vertices` where more splits than these would be needed.
     TrialPointer by_shells(std::size_t most_splits) {
         const RemeshOptions options = with_at_most_splits(options_, marked_.mesh(), most_splits);
-        auto trial = std::make_unique<Trial>(marked_, report_, 6 * start_.bad.size());
+        // Explosions would make the mesh grow step by step, which takes it twice.
+        const std::size_t room = most_splits == unlimited ? 6 * start_.bad.size() : most_splits;
+        auto trial = std::make_unique<Trial>(marked_, report_, room);
         refine_and_clean(trial->marked, options, context_, trial->report, start_.queue);
         return trial;
     }
@@ -162,6 +165,10 @@ private:
         if (trial->cancelled()) return trial;
         if (!shells.done())
             return trial->done() || has_other_way_ ? std::move(trial) : by_failed_plans(std::move(trial));
+        if (trial->done()) {
+            trial->marked.forget_marks();
+            if (spare_ != nullptr) *spare_ = Mesh();
+        }
         // By now it is known what the points cost in truth: regions where the shells need fewer take these.
         TrialPointer second;
         if (auto plan = planner.take_better_regions(trial->marked.splits()))
@@ -193,7 +200,7 @@ private:
         RefineStart start;
         TrialPointer base = part_by_plan(start);
         for (int round = 1; base->done(); ++round) {
-            Contest next(base->marked, options_, context_, start, base->report, true, false);
+            Contest next(base->marked, options_, context_, start, base->report, true, nullptr, false);
             TrialPointer trial = next.run();
             const bool is_over = trial->cancelled() || !misses_its_plan(*trial) || next.blocked_.plan.empty();
             if (!best || trial->cancelled() || trial->beats(best->report)) best = std::move(trial);
@@ -301,6 +308,7 @@ private:
     const RefineStart& start_;
     const RemeshReport& report_;
     const bool has_other_way_;
+    Mesh* const spare_;  ///< see preserve_with_fewest
     const bool may_part_;
     std::size_t most_splits_ = unlimited;   ///< of a plan that is carried out
     std::size_t most_by_plan_ = unlimited;  ///< the same, where the shells end
@@ -383,9 +391,9 @@ private:
 }  // namespace
 
 void preserve_with_fewest(MarkedMesh& marked, const RemeshOptions& options, const Context* context,
-                          RemeshReport& report, const RefineStart& start, bool has_other_way) {
+                          RemeshReport& report, const RefineStart& start, bool has_other_way, Mesh* spare) {
     if (options.effort == 0) return QuickContest(marked, options, context, start).run(report);
-    const TrialPointer best = Contest(marked, options, context, start, report, has_other_way).run();
+    const TrialPointer best = Contest(marked, options, context, start, report, has_other_way, spare).run();
     report = std::move(best->report);
     marked.take(std::move(best->marked));
 }

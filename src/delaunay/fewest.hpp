@@ -7,8 +7,10 @@ namespace delmesh {
 
 /// As `refine_and_clean` after `start`, but never with more splits. Fills the same of the report, and
 /// `splits_by_shells`. With another way to fall back on it stops, with `max_vertices`, as soon as the number of splits
-/// explodes whatever is tried.
+/// explodes whatever is tried. `spare` becomes empty as soon as it is clear that this ends: what is kept for the case
+/// that it does not would take memory beside the largest models.
 void preserve_with_fewest(MarkedMesh& marked, const RemeshOptions& options, const Context* context,
-                          RemeshReport& report, const RefineStart& start, bool has_other_way = false);
+                          RemeshReport& report, const RefineStart& start, bool has_other_way = false,
+                          Mesh* spare = nullptr);
 
 }  // namespace delmesh

@@ -87,8 +87,10 @@ enum class Way {
     patient,    ///< flips alone first, so that no feature is split that a flip beside it would save; then a search
 };
 
-/// Flips; then Algorithm 1 for what is left, with all vertices of that moment as input.
-void flip_surface(Mesh& mesh, Way way, const RemeshOptions& options, const Context* context, RemeshReport& report) {
+/// Flips; then Algorithm 1 for what is left, with all vertices of that moment as input. `spare`: see
+/// `preserve_with_fewest`.
+void flip_surface(Mesh& mesh, Way way, const RemeshOptions& options, const Context* context, RemeshReport& report,
+                  Mesh* spare = nullptr) {
     const bool patient = way == Way::patient;
     RemeshOptions flips = options;
     if (patient) flips.finish = FlipFinish::literal;
@@ -106,7 +108,7 @@ void flip_surface(Mesh& mesh, Way way, const RemeshOptions& options, const Conte
         RemeshReport rest;
         RefineStart start = flip_planar_edges(splitting, options, context, rest);
         if (patient && !start.bad.empty()) {
-            preserve_with_fewest(splitting, options, context, rest, start);
+            preserve_with_fewest(splitting, options, context, rest, start, false, spare);
         } else {
             splitting.reserve_splits(6 * start.bad.size());
             refine_and_clean(splitting, options, context, rest, std::move(start.queue));
@@ -134,8 +136,9 @@ Attempt attempt(const Mesh& mesh, Way way, std::size_t most_splits, const Remesh
     return result;
 }
 
-/// The better of the two ways, the patient one if neither ends: what has exploded is not kept meanwhile.
-Attempt better_way(const Mesh& mesh, std::size_t most_splits, const RemeshOptions& options, const Context* context,
+/// The better of the two ways, the patient one if neither ends: what has exploded is not kept meanwhile. The mesh stays
+/// as it is only if neither ends.
+Attempt better_way(Mesh& mesh, std::size_t most_splits, const RemeshOptions& options, const Context* context,
                    const RemeshReport& so_far) {
     Attempt published = attempt(mesh, Way::published, most_splits, options, context, so_far);
     if (published.cancelled() || (published.done() && published.report.splits == 0)) return published;
@@ -143,8 +146,15 @@ Attempt better_way(const Mesh& mesh, std::size_t most_splits, const RemeshOption
         published = {};
         return attempt(mesh, Way::patient, most_splits, options, context, so_far);
     }
-    Attempt patient = attempt(mesh, Way::patient, published.report.splits - 1, options, context, so_far);
-    return patient.done() || patient.cancelled() ? std::move(patient) : std::move(published);
+    // One of the two is the result, so the input is needed no more, and a copy would be one mesh too many.
+    RemeshReport patient = so_far;
+    const RemeshOptions fewer = with_at_most(options, mesh.vertex_count() + published.report.splits - 1);
+    flip_surface(mesh, Way::patient, fewer, context, patient, &published.mesh);
+    if (patient.stop == StopReason::done || patient.stop == StopReason::cancelled) {
+        published.mesh = std::move(mesh);
+        published.report = std::move(patient);
+    }
+    return published;
 }
 
 /// Where needles that rounding has made stop mode feature short, they lose their long sides first, features or not. Not

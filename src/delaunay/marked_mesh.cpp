@@ -1,5 +1,6 @@
 #include "delaunay/marked_mesh.hpp"
 
+#include "base/let_go.hpp"
 #include "exact/inline.hpp"
 
 #include <algorithm>
@@ -192,6 +193,11 @@ void MarkedMesh::reserve_splits(std::size_t count) {
     marks_.reserve(marks_.size() + 6 * count);
     if (!facets_.empty()) facets_.reserve(facets_.size() + 2 * count);
     splits_.reserve(splits_.size() + count);
+}
+
+void MarkedMesh::forget_marks() {
+    let_go(marks_);
+    hubs_.clear();
 }
 
 Provenance MarkedMesh::take_provenance() {

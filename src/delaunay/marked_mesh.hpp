@@ -89,6 +89,8 @@ public:
     void compact_all();
 
     void reserve_splits(std::size_t count);
+    /// For a mesh that is finished: no flips or splits after that.
+    void forget_marks();
     /// Hands over the facets and splits. The object is of no more use.
     [[nodiscard]] Provenance take_provenance();
 

@@ -125,13 +125,15 @@ private:
         std::uint32_t transaction = 0;
         int weight = base_weight;
         std::uint8_t size_class = 0;  ///< room for 2^size_class parts
-        bool made = false;
-        bool prepared = false;
-        bool movable = true;
-        bool suspected = false;
-        bool given_up = false;
-        bool distrusted = false;
+        // Bits: there is one for each edge.
+        bool made : 1 = false;
+        bool prepared : 1 = false;
+        bool movable : 1 = true;
+        bool suspected : 1 = false;
+        bool given_up : 1 = false;
+        bool distrusted : 1 = false;
     };
+    static_assert(sizeof(State) == 20);
     struct Saved {
         std::uint32_t edge = 0;
         std::uint32_t first = 0;

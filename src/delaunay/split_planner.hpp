@@ -11,14 +11,15 @@ namespace delmesh {
 class SplitPlanner {
 public:
     /// `baseline`: another solution, or none; see `SplitChooser`. It is empty while the chooser of a large mesh has it.
-    /// All must outlive the planner. `large`: from so many edges on, the chooser is let go and made again.
+    /// All must outlive the planner. `large`: from so many edges on, half as many in a mesh of very many faces,
+    /// the chooser is let go and made again.
     SplitPlanner(const MarkedMesh& marked, std::span<const EdgeId> bad, const SplitSearchOptions& options,
                  std::vector<SplitPoint>& baseline, std::size_t large = 20'000)
         : marked_(marked),
           bad_(bad),
           options_(options),
           baseline_(baseline),
-          is_large_(bad.size() >= large) {}
+          is_large_(bad.size() >= (marked.mesh().face_count() < most_faces ? large : large / 2)) {}
 
     /// `SplitChooser::search`; hands over the plan.
     [[nodiscard]] std::vector<SplitPoint> search(const Context* context);
@@ -32,6 +33,8 @@ public:
     [[nodiscard]] std::optional<std::vector<SplitPoint>> take_better_regions(std::span<const SplitPoint> truth);
 
 private:
+    static constexpr std::size_t most_faces = 500'000;
+
     SplitChooser& chooser();
     /// The plan.
     [[nodiscard]] std::vector<SplitPoint> hand_over();

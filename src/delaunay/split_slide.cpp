@@ -22,8 +22,14 @@ constexpr double plenty = 2;
 
 }  // namespace
 
+void SplitSlide::make_slots() {
+    if (slots_.size() >= model_.edge_count()) return;
+    slots_.reserve(model_.layout().edge_capacity());  // to grow step by step costs it twice
+    slots_.resize(model_.edge_count());
+}
+
 void SplitSlide::watch_suspects() {
-    if (slots_.size() < model_.edge_count()) slots_.resize(model_.edge_count());
+    make_slots();
     while (model_.suspect_count() > 0) {
         const std::uint32_t e = model_.suspect(model_.suspect_count() - 1);
         model_.drop_suspect(model_.suspect_count() - 1);
@@ -32,7 +38,7 @@ void SplitSlide::watch_suspects() {
         model_.prepare(e);
         watched_.push_back(e);
     }
-    if (slots_.size() < model_.edge_count()) slots_.resize(model_.edge_count());
+    make_slots();
 }
 
 void SplitSlide::add_entry(Row& row, std::uint32_t edge, std::size_t point, double slope) {
@@ -74,7 +80,7 @@ bool SplitSlide::add_row(std::uint32_t e, std::size_t part) {
         slope_b += (a - seen.at.x) / d - seen.cot / (b - a);
         if (seen.edge == SplitModel::none) continue;
         model_.prepare(seen.edge);
-        if (slots_.size() < model_.edge_count()) slots_.resize(model_.edge_count());
+        make_slots();
         const std::size_t k = layout.side_within(seen.edge, layout.facet_at(s));
         const Point2 along = layout.side(s).turn(layout.side(layout.edge(seen.edge).side[k]).along);
         const double by_x = (2 * seen.at.x - a - b) / d;

@@ -41,6 +41,7 @@ private:
         std::uint32_t watched = 0;
     };
 
+    void make_slots();
     void watch_suspects();
     [[nodiscard]] bool linearise(std::size_t most_points);
     [[nodiscard]] bool add_row(std::uint32_t e, std::size_t part);
