@@ -284,6 +284,14 @@ void renumber(Mesh& mesh, const CompactMap& map) {
     edit.points.swap(points);
 }
 
+void shrink(Mesh& mesh) {
+    MeshEditor edit(mesh);
+    edit.origin.shrink_to_fit();
+    edit.twin.shrink_to_fit();
+    edit.out.shrink_to_fit();
+    edit.points.shrink_to_fit();
+}
+
 void reserve(Mesh& mesh, std::size_t vertices, std::size_t faces) {
     MeshEditor edit(mesh);
     edit.origin.reserve(3 * faces);

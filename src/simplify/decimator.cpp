@@ -103,9 +103,7 @@ std::size_t Decimator::refit(const RefitTuning& tuning, const Context* context) 
 
 void Decimator::close_gaps(Numbering& numbering) {
     drop_isolated(mesh_);
-    const CompactMap map = in_present_order(mesh_);
-    numbering.renumber(mesh_, map);
-    follow(map);
+    follow(numbering.close_gaps(mesh_));
 }
 
 /// The mesh has been renumbered.

@@ -78,16 +78,18 @@ void Numbering::renumber(Mesh& mesh, const CompactMap& map) {
     face_.swap(face);
 }
 
+CompactMap Numbering::close_gaps(Mesh& mesh) {
+    CompactMap map = compact(mesh);
+    shrink(mesh);
+    move_down(vertex_, map.vertex);
+    move_down(face_, map.face);
+    return map;
+}
+
 CompactMap Numbering::in_order_of_names(const Mesh& mesh) const {
     return {rank<VertexId>(mesh, mesh.vertex_count(), vertex_names_,
                            [&](VertexId v) { return vertex_[v.index()].index(); }),
             rank<FaceId>(mesh, mesh.face_count(), face_names_, [&](FaceId f) { return face_[f.index()].index(); })};
-}
-
-CompactMap in_present_order(const Mesh& mesh) {
-    const auto same = [](auto id) { return id.index(); };
-    return {rank<VertexId>(mesh, mesh.vertex_count(), mesh.vertex_count(), same),
-            rank<FaceId>(mesh, mesh.face_count(), mesh.face_count(), same)};
 }
 
 CompactMap in_order_of_place(const Mesh& mesh, double scale) {

@@ -8,6 +8,16 @@
 
 namespace delmesh {
 
+/// Moves the items of what lives down to their new places, where the map keeps the order, and gives back the room.
+template <class Item, class Id>
+void move_down(std::vector<Item>& items, const std::vector<Id>& map) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < map.size(); ++i)
+        if (map[i].valid()) items[count++] = items[i];
+    items.resize(count);
+    items.shrink_to_fit();
+}
+
 class Numbering {
 public:
     /// As the mesh is, all are called what they are.
@@ -20,6 +30,8 @@ public:
     /// The present ids by name; not valid for what is gone.
     [[nodiscard]] std::vector<VertexId> ids() const;
 
+    /// Closes the gaps between the ids, in place: the map keeps the order. Remembers.
+    CompactMap close_gaps(Mesh& mesh);
     /// Renumbers the mesh, and remembers.
     void renumber(Mesh& mesh, const CompactMap& map);
     /// Ids from 0 on for what lives, in the order of the names.
@@ -38,8 +50,5 @@ void drop_isolated(Mesh& mesh);
 /// Ids from 0 on for what lives, by place along a curve that fills space: what is close by mostly gets close ids.
 /// Source: Morton 1966.
 [[nodiscard]] CompactMap in_order_of_place(const Mesh& mesh, double scale);
-
-/// Ids from 0 on for what lives, in the present order.
-[[nodiscard]] CompactMap in_present_order(const Mesh& mesh);
 
 }  // namespace delmesh

@@ -20,6 +20,7 @@ SurfaceSamples::SurfaceSamples(const Mesh& mesh, std::size_t count, double scale
     const std::size_t stride = std::max<std::size_t>(1, all / std::max<std::size_t>(1, most));
     stride_ = static_cast<double>(stride);
     samples_.reserve(all / stride + 2);
+    near_.reserve(all / stride + 2);
     for (std::size_t i = 0; i < vertices; i += stride) {
         const VertexId v(i);
         if (!mesh.halfedge(v).valid()) continue;
@@ -93,7 +94,7 @@ void SurfaceSamples::reattach(const Mesh& mesh, double scale, const std::vector<
         sum_ += static_cast<double>(sorted[at].weight) * static_cast<double>(sorted[at].distance2);
     }
     samples_.swap(sorted);
-    near_.clear();
+    let_go(near_);
 }
 
 void SurfaceSamples::renumber(const std::vector<FaceId>& ids, std::size_t faces) {

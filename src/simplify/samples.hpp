@@ -1,6 +1,7 @@
 #pragma once
 // Samples of the original surface, each attached to the face of the present one that is nearest to it.
 
+#include "base/let_go.hpp"
 #include "delmesh/mesh/mesh.hpp"
 #include "simplify/star.hpp"
 
@@ -30,6 +31,9 @@ public:
     /// The mesh has been decimated by somebody else: `now` says which of its vertices the ones at the start have
     /// become.
     void reattach(const Mesh& mesh, double scale, const std::vector<VertexId>& now);
+
+    /// Nothing is asked before the next `reattach`.
+    void rest() { let_go(first_); }
 
     /// The faces have got other ids.
     void renumber(const std::vector<FaceId>& ids, std::size_t faces);

@@ -211,10 +211,12 @@ bool has_hub(const Mesh& mesh) {
 
 /// While there is a long way to go: in sweeps.
 std::unique_ptr<Sweeper> sweep_first(Mesh& mesh, const Tuning& tuning, const SimplifyOptions& options,
-                                     std::size_t target, Numbering& numbering, const Context* context) {
+                                     std::size_t target, SurfaceSamples& samples, Numbering& numbering,
+                                     const Context* context) {
     const double until = target < many ? tuning.sweep_until : tuning.sweep_many;
     const double far = std::max(least_far, until * static_cast<double>(target));
     if (!(static_cast<double>(mesh.vertex_count()) > far)) return nullptr;
+    samples.rest();
     drop_isolated(mesh);
     Tuning quick = tuning;
     quick.ends = target < many;
@@ -283,7 +285,8 @@ SimplifyReport run(Mesh& mesh, const SimplifyOptions& options, ProgressiveMesh* 
                         samples_for(targets.front()));
     std::unique_ptr<Sweeper> sweeper;
     // All steps of a progressive mesh are levels, so they are made with all care.
-    if (refit && record == nullptr) sweeper = sweep_first(mesh, tuning, options, targets.front(), numbering, context);
+    if (refit && record == nullptr)
+        sweeper = sweep_first(mesh, tuning, options, targets.front(), *samples, numbering, context);
     Decimator decimator(mesh, tuning, {options.max_quadric_error_rel * diagonal, options.remesh.precision},
                         record != nullptr ? &recorder : nullptr);
     if (samples) decimator.follow_samples(std::move(*samples));

@@ -24,6 +24,18 @@ constexpr double rounding2 = 1e-14;
 /// Gaps are closed when less than this part of the vertices is left.
 constexpr double sparse = 0.6;
 
+/// As `move_down`, for three items a face.
+template <class Item>
+void move_sides_down(std::vector<Item>& items, const std::vector<FaceId>& map) {
+    std::size_t count = 0;
+    for (std::size_t f = 0; f < map.size(); ++f) {
+        if (!map[f].valid()) continue;
+        for (std::size_t k = 0; k < 3; ++k) items[count++] = items[3 * f + k];
+    }
+    items.resize(count);
+    items.shrink_to_fit();
+}
+
 Tuning without_search(Tuning tuning) {
     tuning.bisections = 0;
     tuning.sqp_steps = 0;
@@ -60,7 +72,7 @@ Sweeper::Sweeper(Mesh& mesh, const Tuning& tuning, Precision precision, Numberin
       witness_(mesh.halfedge_count()),
       changed_(mesh.vertex_count()),
       merged_(mesh.vertex_count()),
-      far_(mesh.points().begin(), mesh.points().end()),
+      far_at_(mesh.vertex_count(), none),
       parent_(numbering.vertex_names()) {
     for (std::size_t v = 0; v < parent_.size(); ++v) parent_[v] = VertexId(v);
 }
@@ -152,7 +164,7 @@ void Sweeper::visit(HalfedgeId h, float limit) {
         return;
     }
     drift_sum_ += drift.distance2;
-    far_[star_.u.index()] = drift.point;
+    keep_far(star_.u, star_.v, drift.point);
     accept(h, w);
 }
 
@@ -165,9 +177,27 @@ Sweeper::Drift Sweeper::find_drift(const Vec3& w) const {
     };
     for (const VertexId v : {star_.u, star_.v}) {
         look_at(mesh_.point(v));
-        if (far_[v.index()] != mesh_.point(v)) look_at(far_[v.index()]);
+        const std::uint32_t at = far_at_[v.index()];
+        if (at != none && far_[at] != mesh_.point(v)) look_at(far_[at]);
     }
     return worst;
+}
+
+void Sweeper::keep_far(VertexId kept, VertexId gone, const Vec3& point) {
+    std::uint32_t& at = far_at_[kept.index()];
+    const std::uint32_t spare = far_at_[gone.index()];
+    if (at != none && spare != none) {
+        far_free_.push_back(spare);
+    } else if (at == none && spare != none) {
+        at = spare;
+    } else if (at == none && !far_free_.empty()) {
+        at = far_free_.back();
+        far_free_.pop_back();
+    } else if (at == none) {
+        at = static_cast<std::uint32_t>(far_.size());
+        far_.emplace_back();
+    }
+    far_[at] = point;
 }
 
 void Sweeper::accept(HalfedgeId h, const Vec3& w) {
@@ -180,6 +210,7 @@ void Sweeper::accept(HalfedgeId h, const Vec3& w) {
     const Quadric merged = weights_.merged_history(star_, local);
     worst_error2_ = std::max(worst_error2_, mean_square(merged));
     collapse(mesh_, h, w);
+    weights_.forget_history(gone);
     weights_.set_history(kept, merged);
     weights_.replace_star(star_, local, left, right);
     parent_[numbering_.name(gone).index()] = numbering_.name(kept);
@@ -193,31 +224,18 @@ void Sweeper::accept(HalfedgeId h, const Vec3& w) {
 
 /// Closes the gaps between the ids.
 void Sweeper::tidy() {
-    const CompactMap map = in_present_order(mesh_);
-    for (std::size_t h = 0; h < key_.size(); ++h) {
-        const FaceId face = map.face[h / 3];
-        if (!face.valid()) continue;
-        const std::size_t to = 3 * face.index() + h % 3;
-        const VertexId witness = failed_[h] > 0 ? map.vertex[witness_[h].index()] : VertexId();
-        key_[to] = key_[h];
-        failed_[to] = witness.valid() ? failed_[h] : 0;
-        witness_[to] = witness;
+    const CompactMap map = numbering_.close_gaps(mesh_);
+    weights_.close_gaps(map.vertex);
+    for (std::size_t h = 0; h < failed_.size(); ++h) {
+        witness_[h] = failed_[h] > 0 ? map.vertex[witness_[h].index()] : VertexId();
+        if (!witness_[h].valid()) failed_[h] = 0;
     }
-    for (std::size_t v = 0; v < changed_.size(); ++v) {
-        const VertexId to = map.vertex[v];
-        if (!to.valid()) continue;
-        changed_[to.index()] = changed_[v];
-        merged_[to.index()] = merged_[v];
-        far_[to.index()] = far_[v];
-    }
-    numbering_.renumber(mesh_, map);
-    weights_.renumber(map.vertex);
-    key_.resize(mesh_.halfedge_count());
-    failed_.resize(mesh_.halfedge_count());
-    witness_.resize(mesh_.halfedge_count());
-    changed_.resize(mesh_.vertex_count());
-    merged_.resize(mesh_.vertex_count());
-    far_.resize(mesh_.vertex_count());
+    move_sides_down(key_, map.face);
+    move_sides_down(failed_, map.face);
+    move_sides_down(witness_, map.face);
+    move_down(changed_, map.vertex);
+    move_down(merged_, map.vertex);
+    move_down(far_at_, map.vertex);
 }
 
 double Sweeper::worst_error() const {

@@ -11,6 +11,7 @@
 #include "simplify/weights.hpp"
 
 #include <cstdint>
+#include <deque>
 #include <limits>
 #include <vector>
 
@@ -36,6 +37,8 @@ public:
     [[nodiscard]] std::vector<VertexId> merged_into() const;
 
 private:
+    static constexpr std::uint32_t none = ~std::uint32_t{0};
+
     struct Drift {
         double distance2 = -1;  ///< squared, local unit
         Vec3 point;
@@ -48,6 +51,7 @@ private:
     void wait(HalfedgeId h, VertexId witness);
     [[nodiscard]] Drift find_drift(const Vec3& w) const;
     void accept(HalfedgeId h, const Vec3& w);
+    void keep_far(VertexId kept, VertexId gone, const Vec3& point);
     void tidy();
 
     Mesh& mesh_;
@@ -70,8 +74,10 @@ private:
     std::vector<VertexId> witness_;       ///< per half-edge: the vertex that must change before it is tried again
     std::vector<std::uint32_t> changed_;  ///< per vertex: when the faces around it last changed
     std::vector<std::uint32_t> merged_;   ///< per vertex: the sweep in which something was last merged into it
-    std::vector<Vec3> far_;               ///< per vertex: of what was merged into it, the farthest from the surface
-    std::vector<VertexId> parent_;        ///< by name, the name of what it was merged into, or its own
+    std::vector<std::uint32_t> far_at_;   ///< per vertex: where its far point stands; none: nothing was merged into it
+    std::deque<Vec3> far_;                ///< of what was merged into a vertex, the farthest from the surface
+    std::vector<std::uint32_t> far_free_;
+    std::vector<VertexId> parent_;  ///< by name, the name of what it was merged into, or its own
     std::vector<float> some_keys_;
 };
 

@@ -1,6 +1,7 @@
 #include "simplify/weights.hpp"
 
 #include "simplify/frame.hpp"
+#include "simplify/numbering.hpp"
 #include "simplify/walk.hpp"
 
 #include <algorithm>
@@ -48,11 +49,38 @@ VertexWeights::VertexWeights(const Mesh& mesh, double scale, const Tuning& tunin
       scale_(scale),
       tuning_(tuning),
       history_(mesh.vertex_count()),
+      rest_at_(mesh.vertex_count(), none),
       current_(mesh.vertex_count()) {
     for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
-        const Quadric q = history_[i] = planes_at(VertexId(i));
-        current_[i] = {q.xx, q.xy, q.xz, q.yy, q.yz, q.zz};
+        const Quadric q = planes_at(VertexId(i));
+        history_[i] = current_[i] = {q.xx, q.xy, q.xz, q.yy, q.yz, q.zz};
     }
+}
+
+Quadric VertexWeights::history(VertexId v) const {
+    const Planes& planes = history_[v.index()];
+    Quadric q;
+    q.xx = planes.xx, q.xy = planes.xy, q.xz = planes.xz, q.yy = planes.yy, q.yz = planes.yz, q.zz = planes.zz;
+    if (const std::uint32_t at = rest_at_[v.index()]; at != none) q.b = rest_[at].b, q.c = rest_[at].c;
+    return q;
+}
+
+void VertexWeights::set_history(VertexId v, const Quadric& merged) {
+    history_[v.index()] = {merged.xx, merged.xy, merged.xz, merged.yy, merged.yz, merged.zz};
+    std::uint32_t& at = rest_at_[v.index()];
+    if (at == none && !rest_free_.empty()) {
+        at = rest_free_.back();
+        rest_free_.pop_back();
+    } else if (at == none) {
+        at = static_cast<std::uint32_t>(rest_.size());
+        rest_.emplace_back();
+    }
+    rest_[at] = {merged.b, merged.c};
+}
+
+void VertexWeights::forget_history(VertexId v) {
+    if (rest_at_[v.index()] != none) rest_free_.push_back(rest_at_[v.index()]);
+    rest_at_[v.index()] = none;
 }
 
 Quadric VertexWeights::merged_history(const Star& star, const Vec3& w) const {
@@ -62,19 +90,29 @@ Quadric VertexWeights::merged_history(const Star& star, const Vec3& w) const {
 }
 
 void VertexWeights::renumber(const std::vector<VertexId>& ids) {
-    std::vector<Quadric> history(mesh_.vertex_count());
+    std::vector<Planes> history(mesh_.vertex_count());
+    std::vector<std::uint32_t> rest_at(mesh_.vertex_count(), none);
     std::vector<Planes> current(mesh_.vertex_count());
     for (std::size_t v = 0; v < ids.size(); ++v) {
         if (!ids[v].valid()) continue;
         history[ids[v].index()] = history_[v];
+        rest_at[ids[v].index()] = rest_at_[v];
         current[ids[v].index()] = current_[v];
     }
     history_.swap(history);
+    rest_at_.swap(rest_at);
     current_.swap(current);
+}
+
+void VertexWeights::close_gaps(const std::vector<VertexId>& ids) {
+    move_down(history_, ids);
+    move_down(rest_at_, ids);
+    move_down(current_, ids);
 }
 
 void VertexWeights::resize() {
     history_.resize(mesh_.vertex_count());
+    rest_at_.resize(mesh_.vertex_count(), none);
     current_.resize(mesh_.vertex_count());
 }
 
@@ -115,8 +153,8 @@ void VertexWeights::replace_star(const Star& star, const Vec3& w, VertexId left,
 
 Quadric VertexWeights::of_edge(VertexId u, VertexId v, const Vec3& to_v) const {
     if (tuning_.paper) {
-        Quadric q = history_[v.index()].moved_to(-to_v);
-        q += history_[u.index()];
+        Quadric q = history(v).moved_to(-to_v);
+        q += history(u);
         return q;
     }
     const Planes& at_u = current_[u.index()];

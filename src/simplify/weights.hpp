@@ -6,6 +6,8 @@
 #include "simplify/star.hpp"
 #include "simplify/tuning.hpp"
 
+#include <cstdint>
+#include <deque>
 #include <vector>
 
 namespace delmesh {
@@ -21,7 +23,7 @@ public:
     /// The planes to judge an edge by: those at its ends, with the place of u as the origin; `to_v` is that of v.
     [[nodiscard]] Quadric of_edge(VertexId u, VertexId v, const Vec3& to_v) const;
     /// Planes of the original faces that v stands for.
-    [[nodiscard]] const Quadric& history(VertexId v) const { return history_[v.index()]; }
+    [[nodiscard]] Quadric history(VertexId v) const;
     /// Asks memory for it ahead of its use.
     void prefetch_history(VertexId v) const { __builtin_prefetch(history_.data() + v.index()); }
 
@@ -29,13 +31,17 @@ public:
     [[nodiscard]] Quadric merged_history(const Star& star, const Vec3& w) const;
 
     /// v stands for the planes of `merged` from now on.
-    void set_history(VertexId v, const Quadric& merged) { history_[v.index()] = merged; }
+    void set_history(VertexId v, const Quadric& merged);
+    /// v is going to be gone: its room goes to others.
+    void forget_history(VertexId v);
     /// To be called when the faces at v have changed.
     void refresh(VertexId v);
     /// The number of vertices has changed; new ones stand for nothing yet.
     void resize();
     /// The vertices have got other ids.
     void renumber(const std::vector<VertexId>& ids);
+    /// The same, where they keep their order: in place.
+    void close_gaps(const std::vector<VertexId>& ids);
     /// To be called when the edge of the star has been collapsed to w (local), between `left` and `right` (not valid at
     /// the boundary): brings the quadrics of w and of the ring up to date from what has changed.
     void replace_star(const Star& star, const Vec3& w, VertexId left, VertexId right);
@@ -56,12 +62,21 @@ private:
             return *this;
         }
     };
+    /// The rest of a quadric. It is zero, and not stored, until something is merged into the vertex.
+    struct Rest {
+        Vec3 b;
+        double c = 0;
+    };
+    static constexpr std::uint32_t none = ~std::uint32_t{0};
     [[nodiscard]] Quadric planes_at(VertexId v) const;
 
     const Mesh& mesh_;
     double scale_;
     const Tuning& tuning_;
-    std::vector<Quadric> history_;
+    std::vector<Planes> history_;
+    std::vector<std::uint32_t> rest_at_;  ///< per vertex: of its history
+    std::deque<Rest> rest_;
+    std::vector<std::uint32_t> rest_free_;
     std::vector<Planes> current_;
 };
 

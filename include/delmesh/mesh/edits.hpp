@@ -65,6 +65,9 @@ CompactMap compact(Mesh& mesh);
 /// Each face keeps its first corner. Cost: O(size).
 void renumber(Mesh& mesh, const CompactMap& map);
 
+/// Gives back the room that `compact` has left.
+void shrink(Mesh& mesh);
+
 /// Makes room for growth, to avoid reallocation. Never required.
 void reserve(Mesh& mesh, std::size_t vertices, std::size_t faces);
 
