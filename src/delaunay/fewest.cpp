@@ -24,6 +24,8 @@ constexpr std::size_t least_most_splits = 500;
 
 /// Rounds of parting sheets that want the same edges; points in a plan for the next sheets may bring new ones.
 constexpr int most_partings = 12;
+/// Rounds in a row that leave hardly less.
+constexpr int most_useless_partings = 2;
 
 constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
 
@@ -147,7 +149,7 @@ private:
         SplitPlanner planner(marked_, start_.bad, {static_cast<int>(options_.effort), options_.seed}, shells.splits);
         TrialPointer trial = by_search(planner);
         const bool is_broken = misses_its_plan(*trial) && !planner.leaves_open();
-        if (is_broken && may_part_ && !blocked_.plan.empty() && !trial->cancelled()) {
+        if (is_broken && may_part_ && !has_other_way_ && !blocked_.plan.empty() && !trial->cancelled()) {
             if (!trial->done()) trial.reset();
             TrialPointer parted = by_parting();
             if (parted->cancelled() || !trial || parted->beats(trial->report)) trial = std::move(parted);
@@ -198,13 +200,17 @@ private:
     TrialPointer by_parting() {
         TrialPointer best;
         RefineStart start;
+        std::size_t least_open = blocked_.open;
+        int useless = 0;
         TrialPointer base = part_by_plan(start);
         for (int round = 1; base->done(); ++round) {
             Contest next(base->marked, options_, context_, start, base->report, true, nullptr, false);
             TrialPointer trial = next.run();
             const bool is_over = trial->cancelled() || !misses_its_plan(*trial) || next.blocked_.plan.empty();
             if (!best || trial->cancelled() || trial->beats(best->report)) best = std::move(trial);
-            if (is_over || round == most_partings) break;
+            useless = next.blocked_.open < least_open - least_open / 10 ? 0 : useless + 1;
+            if (is_over || round == most_partings || useless == most_useless_partings) break;
+            least_open = std::min(least_open, next.blocked_.open);
             trial.reset();
             base = next.part_by_plan(start);
         }
