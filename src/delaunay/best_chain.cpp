@@ -16,30 +16,44 @@ constexpr int never = std::numeric_limits<int>::max() / 2;
 /// Several points: the cheapest chain over some places in each cell.
 void BestResponse::place_many() {
     candidates_.clear();
-    is_quick_ ? add_quick_candidates() : add_candidates();
-    sort_candidates();
+    if (is_quick_) {
+        add_quick_candidates();
+        sort_candidates();
+    } else {
+        add_candidates();
+    }
+    finish_candidates();
     if (cheapest_chain()) return;
     if (!is_quick_) {
         add_farthest_candidates();
         sort_candidates();
+        finish_candidates();
         if (cheapest_chain()) return;
     }
     plain_chain();
 }
 
+/// Into its place among those before it: they come nearly in order.
+void BestResponse::insert_candidate(double at) {
+    candidates_.push_back({at});
+    std::size_t i = candidates_.size() - 1;
+    for (; i > 0 && candidates_[i - 1].at > at; --i) candidates_[i].at = candidates_[i - 1].at;
+    candidates_[i].at = at;
+}
+
 void BestResponse::add_candidates() {
-    const auto add = [&](double t, int weight = -1) { candidates_.push_back({t, -1, weight}); };
     const int extra = cells_.size() < 12 ? 2 : cells_.size() < 40 ? 1 : 0;
+    std::size_t aligned = 0;
     for (const Cell& cell : cells_) {
-        const int weight = cell.weight == 0 ? 0 : -1;
-        add(pick(cell.begin, cell.end), weight);
+        insert_candidate(pick(cell.begin, cell.end));
         if (cell.weight > 0)
-            for (const double t : near_ends(cell.begin, cell.end)) add(t);
-        for (int i = 0; i < extra; ++i) add(cell.begin + (cell.end - cell.begin) * random_.uniform(), weight);
+            for (const double t : near_ends(cell.begin, cell.end)) insert_candidate(t);
+        for (int i = 0; i < extra; ++i) insert_candidate(cell.begin + (cell.end - cell.begin) * random_.uniform());
+        for (; aligned < aligned_.size() && aligned_[aligned] <= cell.end; ++aligned)
+            insert_candidate(aligned_[aligned]);
     }
-    for (const double t : aligned_) add(t);
-    if (first_reach_ < high_) add(first_reach_);
-    if (last_reach_ > low_) add(last_reach_);
+    if (first_reach_ < high_) insert_candidate(first_reach_);
+    if (last_reach_ > low_) insert_candidate(last_reach_);
 }
 
 /// As far as one gets from each end, again and again.
@@ -77,66 +91,84 @@ void BestResponse::add_quick_candidates() {
 void BestResponse::sort_candidates() {
     std::sort(candidates_.begin(), candidates_.end(),
               [](const Candidate& a, const Candidate& b) { return a.at < b.at; });
-    const auto out = [&](const Candidate& c) { return c.at < low_ + room_ || c.at > high_ - room_; };
-    candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(), out), candidates_.end());
-    const auto same = [](const Candidate& a, const Candidate& b) { return a.at == b.at; };
-    candidates_.erase(std::unique(candidates_.begin(), candidates_.end(), same), candidates_.end());
-    model_.count_work(candidates_.size() * (4 + blocked_.size() + candidates_.size() / 4) / 4);
-    for (Candidate& candidate : candidates_) {
-        candidate.cost = never;
-        candidate.done = 0;
-    }
-    ahead_.assign(candidates_.size(), never);
 }
 
-/// The cheapest way from low to high in Delaunay steps, by Dijkstra's algorithm; fills `chosen_`. How far a step
-/// reaches is only asked where that may be part of the answer.
+/// Takes out what lies too near to the ends or twice at the same place, and weighs the rest.
+void BestResponse::finish_candidates() {
+    std::size_t kept = 0;
+    for (const Candidate& c : candidates_) {
+        if (c.at < low_ + room_ || c.at > high_ - room_) continue;
+        if (kept == 0 || candidates_[kept - 1].at < c.at) candidates_[kept++] = c;
+    }
+    candidates_.resize(kept);
+    model_.count_work(kept * (4 + blocked_.size() + kept / 4) / 4);
+    weigh_candidates();
+    cost_.resize(kept);
+    before_.resize(kept);
+}
+
+/// As `soft_weight`, for all at once: that takes a fraction of the time.
+void BestResponse::weigh_candidates() {
+    load_.assign(candidates_.size(), 0);
+    const auto before = [](const Candidate& c, double at) { return c.at < at; };
+    for (const Cell& b : blocked_) {
+        const auto first = std::lower_bound(candidates_.begin(), candidates_.end(), b.begin, before);
+        const double inverse = 1 / (b.end - b.begin);
+        for (auto i = static_cast<std::size_t>(first - candidates_.begin()); i < candidates_.size(); ++i) {
+            const double t = candidates_[i].at;
+            if (t >= b.end) break;
+            load_[i] += b.weight * std::min(1.0, 0.5 + 2 * inverse * std::min(t - b.begin, b.end - t));
+        }
+    }
+}
+
+/// The cheapest way from low to high in Delaunay steps, by Dijkstra's algorithm; fills `chosen_`. A step reaches the
+/// farther the farther it begins, and what a point costs does not depend on the way to it. So the first way to a point
+/// is the cheapest, and ways to points before one that has been gone on from lead to nothing new.
 bool BestResponse::cheapest_chain() {
     int least = never;
     int last = -1;
-    const auto reach = [&](std::size_t i, int before_it, int before) {
-        Candidate& here = candidates_[i];
-        const bool is_last = here.at >= last_reach_;
-        // Its weight is only asked for where that may matter.
-        if (here.done != 0 || before_it >= here.cost || before_it > (is_last ? least : least - point_cost)) return;
-        if (here.weight < 0) here.weight = soft_weight(here.at);
-        const int cost = before_it + here.weight;
-        if (cost >= here.cost) return;
-        here.cost = cost;
-        here.before = before;
-        ahead_[i] = is_last ? never : cost;
-        if (!is_last || cost > least) return;
-        if (cost == least && (is_quick_ || random_.chance(0.5))) return;
-        least = cost;
-        last = static_cast<int>(i);
+    std::size_t reached = 0;
+    const auto reach = [&](double limit, double from, int before_it, int before) {
+        for (; reached < candidates_.size() && candidates_[reached].at <= limit; ++reached) {
+            const double at = candidates_[reached].at;
+            const bool is_last = at >= last_reach_;
+            cost_[reached] = never;
+            if (at < from || before_it > (is_last ? least : least - point_cost)) continue;
+            const int cost = before_it + static_cast<int>(load_[reached]);
+            before_[reached] = before;
+            if (!is_last) cost_[reached] = cost;
+            if (!is_last || cost > least) continue;
+            if (cost == least && (is_quick_ || random_.chance(0.5))) continue;
+            least = cost;
+            last = static_cast<int>(reached);
+        }
     };
-    for (std::size_t i = 0; i < candidates_.size() && candidates_[i].at <= first_reach_; ++i) reach(i, point_cost, -1);
-    for (int i = cheapest_candidate(least); i >= 0; i = cheapest_candidate(least)) {
+    reach(first_reach_, low_, point_cost, -1);
+    for (int i = cheapest_candidate(0, reached, least); i >= 0;) {
         Candidate& from = candidates_[i];
-        from.done = 1;
-        ahead_[i] = never;
         if (from.reach < 0) from.reach = reach_up(from.at);
-        for (std::size_t j = i + 1; j < candidates_.size() && candidates_[j].at <= from.reach; ++j)
-            if (candidates_[j].at >= from.at + room_) reach(j, from.cost + point_cost, i);
+        reach(from.reach, from.at + room_, cost_[i] + point_cost, i);
+        i = cheapest_candidate(static_cast<std::size_t>(i) + 1, reached, least);
     }
     if (last < 0) return false;
-    for (int i = last; i >= 0; i = candidates_[i].before) chosen_.push_back(candidates_[i].at);
+    for (int i = last; i >= 0; i = before_[i]) chosen_.push_back(candidates_[i].at);
     std::reverse(chosen_.begin(), chosen_.end());
     return true;
 }
 
-/// To go on from, if that may lead to a way that costs less than `least`; or -1.
-int BestResponse::cheapest_candidate(int least) {
-    int best = -1;
-    int cost = least - point_cost - 1;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < ahead_.size(); ++i) {
-        if (ahead_[i] > cost) continue;
-        if (ahead_[i] < cost) count = 0;
-        cost = ahead_[i];
-        if (is_quick_ ? count++ == 0 : random_.below(++count) == 0) best = static_cast<int>(i);
+/// Of some, to go on from, if that may lead to a way that costs less than `least`; or -1.
+int BestResponse::cheapest_candidate(std::size_t first, std::size_t last, int least) {
+    int cost = least - point_cost;
+    std::uint32_t count = 0;
+    for (std::size_t i = first; i < last; ++i) {
+        count = (cost_[i] < cost ? 0u : count) + (cost_[i] <= cost ? 1u : 0u);
+        cost = std::min(cost, cost_[i]);
     }
-    return best;
+    if (cost >= least - point_cost) return -1;
+    std::uint32_t skipped = is_quick_ ? 0 : random_.below(count);
+    for (std::size_t i = first;; ++i)
+        if (cost_[i] == cost && skipped-- == 0) return static_cast<int>(i);
 }
 
 /// As few points as the edge itself needs, whatever they block.

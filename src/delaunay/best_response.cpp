@@ -54,24 +54,26 @@ void BestResponse::look(std::uint32_t e, bool far) {
         const Facet& facet = layout.facet(side.facet);
         if (!facet.single) continue;
         view.listed = true;
-        view.points.push_back(side.apex);
+        view.points.push_back({side.apex.x, side.apex.y, 1 / side.apex.y});
         for (std::uint32_t s = facet.first_side; s < facet.first_side + 3; ++s)
-            if (s != view.side) look_at(side, s, far, view.points);
+            if (s != view.side) look_at(side, view.side, s, far, view.points);
         view.listed = view.points.size() <= longest_list;
     }
+    is_listed_ = std::all_of(views_.begin(), views_.end(),
+                             [](const View& view) { return view.side == SplitModel::none || view.listed; });
 }
 
-void BestResponse::look_at(const Side& side, std::uint32_t s, bool far, std::vector<Point2>& points) const {
-    const std::size_t n = model_.point_count(model_.layout().edge_at(s));
+void BestResponse::look_at(const Side& side, std::uint32_t s, std::uint32_t other, bool far,
+                           std::vector<Seen>& points) const {
+    const std::uint32_t edge = model_.layout().edge_at(other);
+    const std::size_t n = model_.point_count(edge);
     if (n == 0) return;
-    const Side other = model_.layout().side(s);
-    const Point2 p = side.to_frame(other.start);
-    const Point2 d = side.turn(other.along);
-    auto parts = model_.parts(other.edge).first(n);
+    const auto [p, d] = model_.layout().seen_from(side, s, other);
+    auto parts = model_.parts(edge).first(n);
     if (!far && n > few_points) parts = around_stretch(parts, p, d);
     for (const Part& part : parts) {
         const Point2 q = p + part.end * d;
-        if (q.y > 0) points.push_back(q);
+        if (q.y > 0) points.push_back({q.x, q.y, 1 / q.y});
     }
 }
 
@@ -92,13 +94,13 @@ std::span<const Part> BestResponse::around_stretch(std::span<const Part> parts, 
 /// Of what is listed.
 Point2 BestResponse::nearest(const View& view, double a, double b, double& cot) const {
     model_.count_work(view.points.size());
-    Point2 best = view.points.front();
-    cot = cot_of(a, b, best);
-    for (std::size_t i = 1; i < view.points.size(); ++i) {
-        const double candidate = cot_of(a, b, view.points[i]);
+    Point2 best;
+    cot = std::numeric_limits<double>::infinity();
+    for (const Seen& seen : view.points) {
+        const double candidate = cot_of(a, b, {seen.x, seen.y});
         if (candidate >= cot) continue;
         cot = candidate;
-        best = view.points[i];
+        best = {seen.x, seen.y};
     }
     return best;
 }
@@ -152,8 +154,50 @@ double BestResponse::step(double a, double b, bool up) const {
     return length < b - a ? length : (b - a) * (1 - 1e-7);
 }
 
+/// The same, where all that both sides see is listed: from `from` on upwards or downwards as far as a part is Delaunay.
+/// Of x^2 + y^2 - x l, over y, only the least matters.
+template <bool up>
+double BestResponse::listed_reach(double from) const {
+    const double whole = up ? high_ - from : from - low_;
+    const bool is_boundary = views_[0].side == SplitModel::none || views_[1].side == SplitModel::none;
+    const std::size_t evaluations = views_[0].points.size() + views_[1].points.size();
+    double length = whole;
+    for (int i = 0; i < max_newton && length > 0; ++i) {
+        model_.count_work(evaluations);
+        double sum = 0;
+        double size = 0;
+        double constant = 0;
+        double slope = 0;
+        for (const View& view : views_) {
+            double least = std::numeric_limits<double>::infinity();
+            double least_constant = 0;
+            double least_slope = 0;
+            for (const Seen& seen : view.points) {
+                const double x = up ? seen.x - from : from - seen.x;
+                const double ratio = x * seen.inverse;
+                const double value = (x - length) * ratio + seen.y;
+                if (value >= least) continue;
+                least = value;
+                least_constant = x * ratio + seen.y;
+                least_slope = ratio;
+            }
+            if (view.points.empty()) continue;
+            sum += least;
+            size += std::fabs(least);
+            constant += least_constant;
+            slope += least_slope;
+        }
+        if (!(sum < (is_boundary ? margin_boundary * length : 0.5 * margin_interior * size))) break;
+        const double shorter = constant / slope * (1 - 1e-9);
+        length = shorter < length ? shorter : length * (1 - 1e-7);
+    }
+    if (length == whole) return up ? high_ : low_;
+    return up ? from + length : from - length;
+}
+
 /// The farthest end of a part that starts at `from` and is Delaunay. Newton's method on a concave function.
 double BestResponse::reach_up(double from) const {
+    if (is_listed_) return listed_reach<true>(from);
     double end = high_;
     for (int i = 0; i < max_newton && end > from; ++i) {
         const double length = step(from, end, true);
@@ -164,6 +208,7 @@ double BestResponse::reach_up(double from) const {
 }
 
 double BestResponse::reach_down(double from) const {
+    if (is_listed_) return listed_reach<false>(from);
     double start = low_;
     for (int i = 0; i < max_newton && start < from; ++i) {
         const double length = step(start, from, false);
@@ -180,20 +225,18 @@ void BestResponse::block(std::uint32_t e) {
     blocked_.clear();
     for (const std::uint32_t own : model_.layout().edge(e).side) {
         if (own == SplitModel::none) continue;
-        const Side side = model_.layout().side(own);
-        const Facet& facet = model_.layout().facet(side.facet);
+        const Facet& facet = model_.layout().facet(model_.layout().facet_at(own));
         for (std::uint32_t s = facet.first_side; s < facet.first_side + facet.side_count; ++s)
-            if (model_.layout().edge_at(s) != e) block_by_side(own, side, s);
+            if (model_.layout().edge_at(s) != e) block_by_side(own, s);
     }
     find_cells();
 }
 
 /// A point (x,y) makes a part [a,b] of side s bad where (a-x)(b-x) + y^2 < level * y * (b-a): inside a circle, so in an
 /// interval of the edge.
-void BestResponse::block_by_side(std::uint32_t own_side, const Side& own, std::uint32_t s) {
+void BestResponse::block_by_side(std::uint32_t own_side, std::uint32_t s) {
     const Side side = model_.layout().side(s);
-    const Point2 p = side.to_frame(own.start);
-    const Point2 d = side.turn(own.along);
+    const auto [p, d] = model_.layout().seen_from(side, s, own_side);
     if (p.y <= flat && p.y + d.y <= flat) return;
     const FacetLayout::Edge& other = model_.layout().edge(side.edge);
     const int k = other.side[0] == s ? 0 : 1;
@@ -327,7 +370,7 @@ double BestResponse::distance2_to_others(double t) const {
     const double to_ends = std::min(t - low_, high_ - t);
     double least = to_ends * to_ends;
     for (const View& view : views_)
-        for (const Point2& p : view.points) least = std::min(least, (p.x - t) * (p.x - t) + p.y * p.y);
+        for (const Seen& p : view.points) least = std::min(least, (p.x - t) * (p.x - t) + p.y * p.y);
     return least;
 }
 

@@ -50,29 +50,33 @@ private:
     struct Candidate {
         double at = 0;
         double reach = -1;  ///< unknown if negative
-        int weight = -1;    ///< unknown if negative
-        int cost = 0;
-        int before = 0;
-        int done = 0;  ///< no bool, as whole words are copied much faster
+    };
+    /// A point in the frame of a side, and 1/y.
+    struct Seen {
+        double x = 0;
+        double y = 0;
+        double inverse = 0;
     };
     /// The points that one side of the edge can see, in its frame; for single triangles only.
     struct View {
         std::uint32_t side = SplitModel::none;
         bool listed = false;
-        std::vector<Point2> points;
+        std::vector<Seen> points;
     };
 
     void look(std::uint32_t e, bool far);
-    void look_at(const Side& side, std::uint32_t s, bool far, std::vector<Point2>& points) const;
+    void look_at(const Side& side, std::uint32_t s, std::uint32_t other, bool far, std::vector<Seen>& points) const;
     [[nodiscard]] std::span<const Part> around_stretch(std::span<const Part> parts, Point2 p, Point2 d) const;
     [[nodiscard]] Point2 nearest(const View& view, double a, double b, double& cot) const;
     [[nodiscard]] bool see(double a, double b, std::array<Point2, 2>& at, std::array<double, 2>& cot) const;
     [[nodiscard]] double step(double a, double b, bool up) const;
+    template <bool up>
+    [[nodiscard]] double listed_reach(double from) const;
     [[nodiscard]] double reach_up(double from) const;
     [[nodiscard]] double reach_down(double from) const;
 
     void block(std::uint32_t e);
-    void block_by_side(std::uint32_t own_side, const Side& own, std::uint32_t s);
+    void block_by_side(std::uint32_t own_side, std::uint32_t s);
     void find_cells();
     [[nodiscard]] int soft_weight(double t) const;
 
@@ -86,9 +90,12 @@ private:
     void add_candidates();
     void add_farthest_candidates();
     void add_quick_candidates();
+    void insert_candidate(double at);
     void sort_candidates();
+    void finish_candidates();
+    void weigh_candidates();
     [[nodiscard]] bool cheapest_chain();
-    [[nodiscard]] int cheapest_candidate(int least);
+    [[nodiscard]] int cheapest_candidate(std::size_t first, std::size_t last, int least);
     void plain_chain();
 
     SplitModel& model_;
@@ -100,12 +107,15 @@ private:
     double first_reach_ = -1;  ///< from low_, once it is known
     double last_reach_ = -1;   ///< from high_
     std::array<View, 2> views_;
+    bool is_listed_ = false;     ///< all that both sides see
     std::vector<Cell> blocked_;  ///< one for each part of another edge, with its weight
     std::vector<Event> events_;
     std::vector<Cell> cells_;
     std::vector<double> aligned_;
     std::vector<Candidate> candidates_;
-    std::vector<int> ahead_;  ///< their costs, until they are done
+    std::vector<double> load_;  ///< of each candidate: what it makes bad
+    std::vector<int> cost_;     ///< of the way to it, and of itself; where no way ends
+    std::vector<int> before_;
     std::vector<double> chosen_;
 };
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace delmesh {
@@ -92,6 +93,8 @@ public:
     [[nodiscard]] std::size_t edge_capacity() const { return edges_.capacity(); }
     [[nodiscard]] const Edge& edge(std::uint32_t e) const { return edges_[e]; }
     [[nodiscard]] Side side(std::uint32_t s) const;
+    /// Another side of the same facet in the frame of `side`, which is side s: from where it starts, and along it.
+    [[nodiscard]] std::pair<Point2, Point2> seen_from(const Side& side, std::uint32_t s, std::uint32_t other) const;
     /// side(s).edge.
     [[nodiscard]] std::uint32_t edge_at(std::uint32_t s) const { return records_[s].edge; }
     /// side(s).facet.
@@ -161,6 +164,22 @@ inline Side FacetLayout::side(std::uint32_t s) const {
     side.y_row = (forward ? 1.0 : -1.0) * Point2{-side.x_row.y, side.x_row.x};
     side.apex = side.to_frame(point(record.corner));
     return side;
+}
+
+/// In a triangle that is known without a look at the corners.
+inline std::pair<Point2, Point2> FacetLayout::seen_from(const Side& side, std::uint32_t s, std::uint32_t other) const {
+    const SideRecord& there = records_[other];
+    if (!there.single) {
+        const Point2 start = corners_[triangles_[there.place].corner[there.start]];
+        const Point2 end = corners_[triangles_[there.place].corner[there.end]];
+        return {side.to_frame(start), side.turn(end - start)};
+    }
+    const SideRecord& here = records_[s];
+    const auto place = [&](std::uint8_t i) {
+        return i == here.opposite ? side.apex : Point2{i == here.end ? 1.0 : 0.0, 0};
+    };
+    const Point2 start = place(there.start);
+    return {start, place(there.end) - start};
 }
 
 }  // namespace delmesh

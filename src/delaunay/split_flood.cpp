@@ -120,7 +120,7 @@ Contact SplitModel::flood_in_order(std::uint32_t s, double a, double b, double b
             if (!triangle.is_side[i]) continue;
             const std::uint32_t other = triangle.beyond[i];
             Contact found{best.cot, {}, none};
-            if (layout_.edge_at(other) != side.edge && has_points(other)) scan(side, other, a, b, found);
+            if (layout_.edge_at(other) != side.edge && has_points(other)) scan(side, s, other, a, b, found);
             if (found.edge != none) take(found);
         }
         for (std::size_t i = 0; i < 3; ++i) {
@@ -170,7 +170,7 @@ Contact SplitModel::flood(std::uint32_t s, double a, double b, double bound) con
             const std::uint32_t other = triangle.beyond[i];
             if (layout_.edge_at(other) == side.edge || !has_points(other)) continue;
             if (place_against(a, b, best.cot, corner[i], corner[(i + 1) % 3]) != Place::outside)
-                scan(side, other, a, b, best);
+                scan(side, s, other, a, b, best);
         }
         if (best.cot < before) way = next;
         for (std::size_t i = 0; i < 3; ++i) {

@@ -192,18 +192,22 @@ void SplitModel::replace_parts(std::uint32_t e, std::size_t first, std::size_t l
     State& state = states_[e];
     const auto old = parts(e);
     scratch_.assign(old.begin(), old.begin() + static_cast<std::ptrdiff_t>(first));
-    double start = part_start(e, first);
     for (std::size_t i = 0; i <= points.size(); ++i) {
         Part part;
         part.end = i < points.size() ? points[i] : old[last].end;
-        for (int k = 0; k < 2; ++k) {
-            if (edge.side[k] == none) continue;
-            const Contact contact = nearest(edge.side[k], start, part.end);
+        scratch_.push_back(part);
+    }
+    for (std::size_t k = 0; k < 2; ++k) {
+        if (edge.side[k] == none) continue;
+        double start = part_start(e, first);
+        const Eye eye = eye_at(edge.side[k]);
+        for (std::size_t i = first; i <= first + points.size(); ++i) {
+            Part& part = scratch_[i];
+            const Contact contact = nearest(eye, start, part.end, infinity);
             part.cot[k] = contact.cot;
             part.culprit[k] = contact.edge;
+            start = part.end;
         }
-        start = part.end;
-        scratch_.push_back(part);
     }
     scratch_.insert(scratch_.end(), old.begin() + static_cast<std::ptrdiff_t>(last) + 1, old.end());
     const auto size_class = static_cast<std::uint8_t>(std::bit_width(scratch_.size() - 1));
@@ -228,24 +232,27 @@ void SplitModel::cut(std::uint32_t e, std::size_t first, std::size_t last, std::
 }
 
 void SplitModel::touch_facet(std::uint32_t e, std::uint32_t side, std::span<const double> points, bool removed) {
-    const Side from = layout_.side(side);
-    const Facet& facet = layout_.facet(from.facet);
+    const Facet& facet = layout_.facet(layout_.facet_at(side));
     if (!facet.single) work_ += side_work_ * facet.side_count;  // beside its parts
     for (std::uint32_t s = facet.first_side; s < facet.first_side + facet.side_count; ++s)
-        if (layout_.edge_at(s) != e) touch_side(e, from, s, points, removed);
+        if (layout_.edge_at(s) != e) touch_side(e, side, s, points, removed);
 }
 
 /// Brings the minima of side s up to date after the points of edge e, at side `from` of the same facet, have changed.
-void SplitModel::touch_side(std::uint32_t e, const Side& from, std::uint32_t s, std::span<const double> points,
+void SplitModel::touch_side(std::uint32_t e, std::uint32_t from, std::uint32_t s, std::span<const double> points,
                             bool removed) {
-    const Side side = layout_.side(s);
-    const std::uint32_t other = side.edge;
+    const std::uint32_t other = layout_.edge_at(s);
     const int k = layout_.edge(other).side[0] == s ? 0 : 1;
-    const bool single = layout_.facet(side.facet).single;
-    const Point2 p = side.to_frame(from.start);
-    const Point2 d = side.turn(from.along);
-    if (p.y <= flat && p.y + d.y <= flat) return;
     const State& state = states_[other];
+    const auto sees_it = [&](const Part& part) { return part.culprit[k] == e; };
+    const auto all = parts(other);
+    if (points.empty() && std::none_of(all.begin(), all.end(), sees_it)) {
+        work_ += state.count;
+        return;
+    }
+    const Eye eye = eye_at(s);
+    const auto [p, d] = layout_.seen_from(eye.side, s, from);
+    if (p.y <= flat && p.y + d.y <= flat) return;
     work_ += state.count * (1 + std::min(points.size(), few));
     double start = 0;
     for (std::uint32_t i = 0; i < state.count; ++i) {
@@ -267,8 +274,8 @@ void SplitModel::touch_side(std::uint32_t e, const Side& from, std::uint32_t s, 
             }
             if (!(cot < part.cot[k])) continue;
         }
-        if (lost || !single) {
-            const Contact contact = nearest(s, a, part.end, lost ? infinity : part.cot[k]);
+        if (lost || !eye.single) {
+            const Contact contact = nearest(eye, a, part.end, lost ? infinity : part.cot[k]);
             if (contact.cot == part.cot[k] && (!lost || contact.edge == part.culprit[k])) continue;
             cot = contact.cot;
             culprit = contact.edge;
@@ -283,31 +290,43 @@ void SplitModel::touch_side(std::uint32_t e, const Side& from, std::uint32_t s, 
 
 // --- what a part sees ---
 
-Contact SplitModel::nearest(std::uint32_t s, double a, double b, double bound) const {
-    const Side side = layout_.side(s);
-    const Facet& facet = layout_.facet(side.facet);
-    if (!facet.single) return flood(s, a, b, bound);
-    ++work_;
-    Contact best{cot_of(a, b, side.apex), side.apex, none};
+SplitModel::Eye SplitModel::eye_at(std::uint32_t s) const {
+    Eye eye;
+    eye.id = s;
+    eye.side = layout_.side(s);
+    const Facet& facet = layout_.facet(eye.side.facet);
+    eye.single = facet.single;
+    if (!facet.single) return eye;
     const std::uint32_t i = s - facet.first_side;
     const std::uint32_t next = facet.first_side + (i == 2 ? 0 : i + 1);
     const std::uint32_t before = facet.first_side + (i == 0 ? 2 : i - 1);
-    if (has_points(next)) scan(side, next, a, b, best);
-    if (has_points(before)) scan(side, before, a, b, best);
+    if (has_points(next)) eye.sights[eye.count++] = next;
+    if (has_points(before)) eye.sights[eye.count++] = before;
+    return eye;
+}
+
+Contact SplitModel::nearest(std::uint32_t s, double a, double b, double bound) const {
+    return nearest(eye_at(s), a, b, bound);
+}
+
+Contact SplitModel::nearest(const Eye& eye, double a, double b, double bound) const {
+    if (!eye.single) return flood(eye.id, a, b, bound);
+    ++work_;
+    Contact best{cot_of(a, b, eye.side.apex), eye.side.apex, none};
+    for (std::size_t i = 0; i < eye.count; ++i) scan(eye.side, eye.id, eye.sights[i], a, b, best);
     return best;
 }
 
-/// Improves on `best` by the points of another side, which has some.
-void SplitModel::scan(const Side& side, std::uint32_t s, double a, double b, Contact& best) const {
-    const Side other = layout_.side(s);
-    const auto points = parts(other.edge).first(point_count(other.edge));
-    const Point2 p = side.to_frame(other.start);
-    const Point2 d = side.turn(other.along);
-    const auto consider = [&](double u) {
+/// Improves on `best` by the points of another side than s, which has some.
+void SplitModel::scan(const Side& side, std::uint32_t s, std::uint32_t other, double a, double b, Contact& best) const {
+    const std::uint32_t edge = layout_.edge_at(other);
+    const auto points = parts(edge).first(point_count(edge));
+    const auto [p, d] = layout_.seen_from(side, s, other);
+    const auto consider = [&, p = p, d = d](double u) {
         const Point2 q = p + u * d;
         if (!(q.y > 0)) return;
         const double cot = cot_of(a, b, q);
-        if (cot < best.cot) best = {cot, q, other.edge, u};
+        if (cot < best.cot) best = {cot, q, edge, u};
     };
     if (points.size() <= few) {
         work_ += points.size();

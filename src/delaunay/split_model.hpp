@@ -157,6 +157,15 @@ private:
         friend bool operator<(const Portal& a, const Portal& b) { return a.level > b.level; }
     };
 
+    /// A side and which other sides of its triangle have points.
+    struct Eye {
+        std::uint32_t id = none;
+        Side side;
+        bool single = false;
+        std::size_t count = 0;
+        std::array<std::uint32_t, 2> sights{};
+    };
+
     void grow_states();
     void make(std::uint32_t e);
     [[nodiscard]] std::uint32_t allocate(std::uint8_t size_class);
@@ -164,8 +173,10 @@ private:
     void save(std::uint32_t e);
     void replace_parts(std::uint32_t e, std::size_t first, std::size_t last, std::span<const double> points);
     void touch_facet(std::uint32_t e, std::uint32_t side, std::span<const double> points, bool removed);
-    void touch_side(std::uint32_t e, const Side& from, std::uint32_t s, std::span<const double> points, bool removed);
-    void scan(const Side& side, std::uint32_t s, double a, double b, Contact& best) const;
+    void touch_side(std::uint32_t e, std::uint32_t from, std::uint32_t s, std::span<const double> points, bool removed);
+    [[nodiscard]] Eye eye_at(std::uint32_t s) const;
+    [[nodiscard]] Contact nearest(const Eye& eye, double a, double b, double bound) const;
+    void scan(const Side& side, std::uint32_t s, std::uint32_t other, double a, double b, Contact& best) const;
     [[nodiscard]] bool has_points(std::uint32_t s) const { return point_count(layout_.edge_at(s)) > 0; }
     [[nodiscard]] bool reaches_through(std::uint32_t s, double a, double b, double level, std::uint32_t t) const;
     [[nodiscard]] Contact flood(std::uint32_t s, double a, double b, double bound) const;

@@ -144,12 +144,22 @@ void SplitTargets::take_threads(Point seed, std::size_t size) {
     if (!is_taken(second)) follow(second, size / 2);
 }
 
+/// Neighbours on an edge that follow each other in the list go together.
 void SplitTargets::remove() {
-    for (const Point& t : taken_) {
+    for (std::size_t next = 0; next < taken_.size();) {
+        const Point& t = taken_[next++];
         if (!model_.is_movable(t.edge)) continue;
         model_.prepare(t.edge);
-        const std::size_t i = model_.part_at(t.edge, t.at);
-        if (i < model_.point_count(t.edge) && model_.parts(t.edge)[i].end == t.at) model_.cut(t.edge, i, i + 1, {});
+        const std::size_t first = model_.part_at(t.edge, t.at);
+        const auto points = model_.parts(t.edge).first(model_.point_count(t.edge));
+        if (first >= points.size() || points[first].end != t.at) continue;
+        std::size_t last = first + 1;
+        while (last < points.size() && next < taken_.size() && taken_[next].edge == t.edge &&
+               taken_[next].at == points[last].end) {
+            ++last;
+            ++next;
+        }
+        model_.cut(t.edge, first, last, {});
     }
 }
 
