@@ -10,12 +10,12 @@ namespace delmesh {
 namespace {
 
 /// A unit of work takes about 7 ns.
-constexpr double work_per_edge = 30'000;
+constexpr double work_per_edge = 27'000;
 constexpr double quick_work_per_edge = 1'000;
 constexpr double quick_work_per_split = 200;
 constexpr double construct_work_per_edge = 550;
 constexpr double least_construct_work = 100'000;
-constexpr double least_work = 200e6;
+constexpr double least_work = 140e6;
 constexpr double least_work_of_few = 120e6;  ///< for each start, see below
 /// Nobody wants to wait for minutes unasked. A higher effort is asked.
 constexpr double most_work = 0.8e9;
@@ -34,17 +34,19 @@ constexpr int polish_rounds = 2;
 constexpr double spread_share = 0.2;
 /// The share of the work in which an edge must be closed; else the rest is closed by borrowing.
 constexpr double patience = 0.1;
+constexpr double most_patience = 0.5;  ///< the same, as long as edges get closed
+constexpr std::size_t dear = 2;        ///< where borrowing makes so many times the points, patience begins again
 /// With no more edges than these, and at least this many times as many points, the search starts more than once.
 constexpr std::size_t few_edges = 200;
 constexpr std::size_t hard = 2;
 constexpr int most_starts = 2;
 constexpr double start_share = 0.6;  ///< of the work, for each start
 /// More for the search where no edge stayed open for long.
-constexpr double spare_share = 0.75;
+constexpr double spare_share = 0.6;
 /// And for as long as a point that is saved takes less work than this.
 constexpr double cheap_point = 250e3;
 constexpr double extra_share = 0.1;
-constexpr int most_extra = 7;
+constexpr int most_extra = 4;
 
 }  // namespace
 
@@ -135,11 +137,24 @@ void SplitChooser::find_places(double full, const Context* context) {
     const bool in_blocks = bad_.size() >= many_edges;
     if (options_.effort > 0) in_blocks ? improve_blocks_once(false, context) : wait_for_open_edges(full, context);
     if (is_cancelled(context)) return;
-    search_.close_rings(static_cast<std::uint64_t>(std::min(full, 0.3 * default_work())));
-    search_.close_open(static_cast<std::uint64_t>(full));
+    const std::vector<PlacedPoint> points = placed_points(model_);
+    const std::vector<std::uint32_t> open = search_.open();
+    close(full);
+    if (options_.effort > 0 && !in_blocks && !open.empty() && model_.point_count() > dear * points.size()) {
+        put(points, open);
+        wait_for_open_edges(full, context);
+        if (is_cancelled(context)) return;
+        close(full);
+    }
     if (is_hopeless()) return;
     const double left = (1 + spare_share) * full - static_cast<double>(model_.work() - before);
     if (options_.effort > 0) in_blocks ? improve_blocks(context) : improve(full, std::max(full, left), context);
+}
+
+/// By whatever it takes.
+void SplitChooser::close(double full) {
+    search_.close_rings(static_cast<std::uint64_t>(std::min(full, 0.3 * default_work())));
+    search_.close_open(static_cast<std::uint64_t>(full));
 }
 
 /// Goes on beyond that work for as long as it pays.
@@ -205,7 +220,7 @@ void SplitChooser::spread(double work, bool in_blocks, const Context* context) {
 /// More work than without blocks, as all threads share it.
 void SplitChooser::improve_blocks_once(bool polish, const Context* context) {
     if (model_.point_count() == 0 || is_cancelled(context)) return;
-    const double wanted = std::clamp(work_per_edge * static_cast<double>(bad_.size()), least_work, most_block_work);
+    const double wanted = std::min(work_per_edge * static_cast<double>(bad_.size()), most_block_work);
     const double all = std::ldexp(wanted, options_.effort - default_effort);
     report_progress(context, "place", std::min(shares_done_ / most_shares, 1.0));
     BlockSearchOptions options;
@@ -227,7 +242,7 @@ void SplitChooser::improve_blocks(const Context* context) {
 
 /// Searches for as long as edges get closed.
 void SplitChooser::wait_for_open_edges(double work, const Context* context) {
-    for (double spent = 0; spent < 1 && !is_cancelled(context); spent += patience) {
+    for (double spent = 0; spent < most_patience && !is_cancelled(context); spent += patience) {
         const std::size_t before = search_.open().size();
         if (before == 0) return;
         search_.improve(static_cast<std::uint64_t>(patience * work), context);

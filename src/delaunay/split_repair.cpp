@@ -9,7 +9,6 @@ namespace {
 constexpr int weight_step = 7;
 /// From this weight on, an edge may also get a point more instead of new points.
 constexpr int heavy = SplitModel::base_weight + 20;
-constexpr double self_share = 0.65;
 /// In tenths of a point.
 constexpr std::size_t suspect_price = 4;
 constexpr std::size_t few_points = 3;
@@ -109,7 +108,7 @@ bool SplitRepair::run(std::size_t max_points, std::size_t steps, bool last_first
         if (10 * model_.point_count() + suspect_price * model_.suspect_count() > 10 * max_points) return false;
         model_.add_weight(e, weight_step);
         const auto part = static_cast<std::size_t>(bad);
-        if (!random_.chance(self_share) && resolve_culprit(e, part)) continue;
+        if (!random_.chance(self_share_) && resolve_culprit(e, part)) continue;
         if (!model_.is_movable(e)) return false;
         model_.drop_suspect(i);
         resolve(e, part);
