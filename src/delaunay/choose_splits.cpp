@@ -9,14 +9,14 @@
 namespace delmesh {
 namespace {
 
-/// A unit of work takes about 7 ns.
+/// A unit of work takes 5 to 8 ns.
 constexpr double work_per_edge = 27'000;
 constexpr double quick_work_per_edge = 1'000;
 constexpr double quick_work_per_split = 200;
 constexpr double construct_work_per_edge = 550;
 constexpr double least_construct_work = 100'000;
-constexpr double least_work = 140e6;
-constexpr double least_work_of_few = 120e6;  ///< for each start, see below
+constexpr double least_work = 130e6;
+constexpr double least_work_of_few = 110e6;  ///< for each start, see below
 /// Nobody wants to wait for minutes unasked. A higher effort is asked.
 constexpr double most_work = 0.8e9;
 constexpr double most_block_work = 0.8e9;  ///< in blocks, each round half of it
@@ -140,7 +140,8 @@ void SplitChooser::find_places(double full, const Context* context) {
     const std::vector<PlacedPoint> points = placed_points(model_);
     const std::vector<std::uint32_t> open = search_.open();
     close(full);
-    if (options_.effort > 0 && !in_blocks && !open.empty() && model_.point_count() > dear * points.size()) {
+    const bool may_wait = options_.effort > 0 && !in_blocks && bad_.size() > few_edges;
+    if (may_wait && !open.empty() && model_.point_count() > dear * points.size()) {
         put(points, open);
         wait_for_open_edges(full, context);
         if (is_cancelled(context)) return;
