@@ -118,6 +118,12 @@ private:
         bool forward : 1 = true;  ///< the side runs from its smaller vertex to the larger one
         bool single : 1 = true;
         std::uint32_t place = 0;  ///< of a single triangle its first corner; else the triangle
+
+        /// Corners of the triangle, where the edge starts and ends.
+        [[nodiscard]] std::uint32_t start() const { return forward ? after() : before(); }
+        [[nodiscard]] std::uint32_t end() const { return forward ? before() : after(); }
+        [[nodiscard]] std::uint32_t after() const { return corner == 2 ? 0 : corner + 1; }
+        [[nodiscard]] std::uint32_t before() const { return corner == 0 ? 2 : corner - 1; }
     };
     static_assert(sizeof(SideRecord) == 12);
     static constexpr std::uint32_t mask = (1u << 30) - 1;
@@ -155,13 +161,10 @@ inline Side FacetLayout::side(std::uint32_t s) const {
     const auto point = [&](std::uint32_t i) {
         return corners_[record.single ? record.place + i : triangles_[record.place].corner[i]];
     };
-    const std::uint32_t after = record.corner == 2 ? 0 : record.corner + 1;
-    const std::uint32_t before = record.corner == 0 ? 2 : record.corner - 1;
-    const bool forward = record.forward;
-    side.start = point(forward ? after : before);
-    side.along = point(forward ? before : after) - side.start;
+    side.start = point(record.start());
+    side.along = point(record.end()) - side.start;
     side.x_row = 1 / dot(side.along, side.along) * side.along;
-    side.y_row = (forward ? 1.0 : -1.0) * Point2{-side.x_row.y, side.x_row.x};
+    side.y_row = (record.forward ? 1.0 : -1.0) * Point2{-side.x_row.y, side.x_row.x};
     side.apex = side.to_frame(point(record.corner));
     return side;
 }
@@ -170,16 +173,16 @@ inline Side FacetLayout::side(std::uint32_t s) const {
 inline std::pair<Point2, Point2> FacetLayout::seen_from(const Side& side, std::uint32_t s, std::uint32_t other) const {
     const SideRecord& there = records_[other];
     if (!there.single) {
-        const Point2 start = corners_[triangles_[there.place].corner[there.start]];
-        const Point2 end = corners_[triangles_[there.place].corner[there.end]];
+        const Point2 start = corners_[triangles_[there.place].corner[there.start()]];
+        const Point2 end = corners_[triangles_[there.place].corner[there.end()]];
         return {side.to_frame(start), side.turn(end - start)};
     }
     const SideRecord& here = records_[s];
-    const auto place = [&](std::uint8_t i) {
-        return i == here.opposite ? side.apex : Point2{i == here.end ? 1.0 : 0.0, 0};
+    const auto place = [&](std::uint32_t i) {
+        return i == here.corner ? side.apex : Point2{i == here.end() ? 1.0 : 0.0, 0};
     };
-    const Point2 start = place(there.start);
-    return {start, place(there.end) - start};
+    const Point2 start = place(there.start());
+    return {start, place(there.end()) - start};
 }
 
 }  // namespace delmesh
