@@ -1,8 +1,10 @@
 #include "delaunay/split_search.hpp"
 
 #include "delaunay/foot_threads.hpp"
+#include "delaunay/slice_threads.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 
 namespace delmesh {
@@ -27,6 +29,7 @@ constexpr std::size_t most_feet = 512;
 constexpr std::size_t most_feet_of_few = 2048;
 constexpr std::size_t few_bad_edges = 1000;
 constexpr std::size_t most_weaved = 1024;
+constexpr std::size_t most_slices = 400'000;
 constexpr std::size_t short_slide = 8;
 constexpr std::size_t most_slid_at_once = 400;
 constexpr double open_share = 0.5;      ///< of the work, for what is open
@@ -114,6 +117,28 @@ void SplitSearch::close_by_feet(std::uint64_t work, std::size_t most) {
     limit_work(work);
     for (std::size_t steps = least_feet; steps <= most && !open_.empty(); steps *= 4)
         close_each([&](std::uint32_t e) { return !repair_.is_exhausted() && settle(e, lay_feet(e, steps)); });
+}
+
+/// All points around are replaced, so each open edge must be worth it: only where nothing else is left.
+void SplitSearch::close_by_slices() {
+    SliceThreads slices(model_, repair_);
+    std::vector<std::uint32_t> failed;
+    close_each([&](std::uint32_t e) {
+        if (std::find(failed.begin(), failed.end(), e) != failed.end()) return false;
+        slices.gather(e);
+        std::vector<std::uint32_t> open;
+        std::copy_if(slices.edges().begin(), slices.edges().end(), std::back_inserter(open),
+                     [&](std::uint32_t i) { return model_.is_given_up(i); });
+        model_.begin();
+        if (slices.solve(most_slices)) {
+            model_.commit();
+            return true;
+        }
+        model_.rollback();
+        for (const std::uint32_t i : open) model_.give_up(i, true);
+        failed.insert(failed.end(), open.begin(), open.end());
+        return false;
+    });
 }
 
 void SplitSearch::drop_closed() {
@@ -238,6 +263,8 @@ void SplitSearch::close_open(std::uint64_t work) {
     close_by_feet(work / 4, most_feet_of_few);
     limit_work(work / 4);
     close_by_weaving();
+    limit_work(work);
+    close_by_slices();
 }
 
 // --- mending ---

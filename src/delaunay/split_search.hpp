@@ -97,6 +97,7 @@ private:
     bool weave(std::uint32_t e, std::size_t steps, bool clear_first);
     void close_by_feet(std::uint64_t work, std::size_t most);
     void close_by_weaving();
+    void close_by_slices();
     bool lay_feet(std::uint32_t e, std::size_t steps);
     bool borrow(std::uint32_t e, std::size_t size);
     std::size_t close_by(int way, std::uint32_t e, std::size_t size);
