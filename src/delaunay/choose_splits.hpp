@@ -51,6 +51,8 @@ public:
     [[nodiscard]] bool leaves_open() const { return leaves_open_; }
     /// Takes the baseline in all regions where edges are open, or where it has fewer points.
     void close_by_baseline();
+    /// Instead of `search`: threads in parallel planes. False if edges stay open.
+    bool search_slices(const Context* context);
     /// Instead of `search`: in about the time of the shells, and less well. Edges may stay as they are.
     void construct_quickly();
     /// The points, ordered by edge and parameter.

@@ -184,9 +184,22 @@ private:
     /// region. Where they do not end, the region is taken from the baseline.
     TrialPointer by_search(SplitPlanner& planner) {
         TrialPointer trial = by_plan(planner, planner.search(context_));
+        if (most_by_plan_ == unlimited && !trial->done() && !trial->cancelled()) return by_slices(std::move(trial));
         if (!planner.leaves_open() || trial->done() || trial->cancelled()) return trial;
         trial.reset();
         return by_plan(planner, planner.close_by_baseline());
+    }
+
+    /// Where shells explode on what the search leaves open: a plan that has nothing of that.
+    TrialPointer by_slices(TrialPointer trial) {
+        std::vector<SplitPoint> none;
+        SplitPlanner planner(marked_, start_.bad, {static_cast<int>(options_.effort), options_.seed}, none);
+        auto plan = planner.search_slices(context_);
+        if (!plan) return trial;
+        const std::size_t failed = failed_.size();
+        TrialPointer sliced = by_plan(planner, std::move(*plan));
+        failed_.resize(failed);
+        return sliced->done() || sliced->cancelled() ? std::move(sliced) : std::move(trial);
     }
 
     void note_blocked(Trial& trial, const std::vector<SplitPoint>& plan, const std::vector<HalfedgeId>& left) {

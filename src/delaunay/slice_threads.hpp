@@ -12,8 +12,8 @@
 namespace delmesh {
 
 /// Lines at right angles to needles that lean wind on and on. Where a plane at right angles to most of them cuts them,
-/// threads close after one turn instead, and a part of length l between two planes is Delaunay while l times the lean is
-/// less than the widths beside it.
+/// threads close after one turn instead, and a part of length l between two planes is Delaunay while l times the lean
+/// is less than the widths beside it.
 class SliceThreads {
 public:
     SliceThreads(SplitModel& model, const SplitRepair& limits) : model_(model), limits_(limits) {}

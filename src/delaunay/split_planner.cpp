@@ -42,6 +42,12 @@ std::vector<SplitPoint> SplitPlanner::close_by_baseline() {
     return hand_over();
 }
 
+std::optional<std::vector<SplitPoint>> SplitPlanner::search_slices(const Context* context) {
+    if (chooser().search_slices(context)) return hand_over();
+    rest();
+    return std::nullopt;
+}
+
 std::optional<std::vector<SplitPoint>> SplitPlanner::mend(std::span<const std::array<VertexId, 2>> edges) {
     if (chooser().mend(edges)) return hand_over();
     rest();

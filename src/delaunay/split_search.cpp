@@ -119,8 +119,8 @@ void SplitSearch::close_by_feet(std::uint64_t work, std::size_t most) {
         close_each([&](std::uint32_t e) { return !repair_.is_exhausted() && settle(e, lay_feet(e, steps)); });
 }
 
-/// All points around are replaced, so each open edge must be worth it: only where nothing else is left.
-void SplitSearch::close_by_slices() {
+void SplitSearch::close_by_slices(std::uint64_t work) {
+    limit_work(work);
     SliceThreads slices(model_, repair_);
     std::vector<std::uint32_t> failed;
     close_each([&](std::uint32_t e) {
@@ -263,8 +263,6 @@ void SplitSearch::close_open(std::uint64_t work) {
     close_by_feet(work / 4, most_feet_of_few);
     limit_work(work / 4);
     close_by_weaving();
-    limit_work(work);
-    close_by_slices();
 }
 
 // --- mending ---

@@ -47,6 +47,9 @@ public:
     /// whichever takes fewer points.
     void close_open(std::uint64_t work);
 
+    /// Lays threads in parallel planes around each open edge, in place of all that is there.
+    void close_by_slices(std::uint64_t work);
+
     /// Lets these edges keep a distance from ties, and repairs them. False if nothing has changed.
     bool mend(const std::vector<std::uint32_t>& edges, std::uint64_t work);
 
@@ -97,7 +100,6 @@ private:
     bool weave(std::uint32_t e, std::size_t steps, bool clear_first);
     void close_by_feet(std::uint64_t work, std::size_t most);
     void close_by_weaving();
-    void close_by_slices();
     bool lay_feet(std::uint32_t e, std::size_t steps);
     bool borrow(std::uint32_t e, std::size_t size);
     std::size_t close_by(int way, std::uint32_t e, std::size_t size);
