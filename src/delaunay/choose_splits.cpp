@@ -126,12 +126,10 @@ void SplitChooser::close_by_baseline() {
     leaves_open_ = false;
 }
 
-bool SplitChooser::search_slices(const Context* context) {
+bool SplitChooser::lay_slices() {
     search_.set_open(bad_);
     search_.close_by_slices(static_cast<std::uint64_t>(default_work()));
-    if (!search_.open().empty()) return false;
-    search_.improve(static_cast<std::uint64_t>(slices_share * full_work()), context);
-    return true;
+    return search_.open().empty();
 }
 
 /// What is still open in a large mesh makes the shells explode again: no use in improving the rest.

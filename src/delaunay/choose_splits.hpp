@@ -52,7 +52,7 @@ public:
     /// Takes the baseline in all regions where edges are open, or where it has fewer points.
     void close_by_baseline();
     /// Instead of `search`: threads in parallel planes. False if edges stay open.
-    bool search_slices(const Context* context);
+    bool lay_slices();
     /// Instead of `search`: in about the time of the shells, and less well. Edges may stay as they are.
     void construct_quickly();
     /// The points, ordered by edge and parameter.

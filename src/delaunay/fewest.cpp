@@ -184,7 +184,8 @@ private:
     /// region. Where they do not end, the region is taken from the baseline.
     TrialPointer by_search(SplitPlanner& planner) {
         TrialPointer trial = by_plan(planner, planner.search(context_));
-        if (most_by_plan_ == unlimited && !trial->done() && !trial->cancelled()) return by_slices(std::move(trial));
+        if (most_by_plan_ == unlimited && !trial->done() && !trial->cancelled() && !has_sliced_)
+            return by_slices(std::move(trial));
         if (!planner.leaves_open() || trial->done() || trial->cancelled()) return trial;
         trial.reset();
         return by_plan(planner, planner.close_by_baseline());
@@ -192,9 +193,10 @@ private:
 
     /// Where shells explode on what the search leaves open: a plan that has nothing of that.
     TrialPointer by_slices(TrialPointer trial) {
+        has_sliced_ = true;
         std::vector<SplitPoint> none;
         SplitPlanner planner(marked_, start_.bad, {static_cast<int>(options_.effort), options_.seed}, none);
-        auto plan = planner.search_slices(context_);
+        auto plan = planner.lay_slices();
         if (!plan) return trial;
         const std::size_t failed = failed_.size();
         TrialPointer sliced = by_plan(planner, std::move(*plan));
@@ -331,6 +333,7 @@ private:
     const bool may_part_;
     std::size_t most_splits_ = unlimited;   ///< of a plan that is carried out
     std::size_t most_by_plan_ = unlimited;  ///< the same, where the shells end
+    bool has_sliced_ = false;
     std::vector<FailedPlan> failed_;
     FailedPlan blocked_{unlimited, {}};  ///< of the plans with sheets in the way of flips the one that leaves least
 };

@@ -42,8 +42,8 @@ std::vector<SplitPoint> SplitPlanner::close_by_baseline() {
     return hand_over();
 }
 
-std::optional<std::vector<SplitPoint>> SplitPlanner::search_slices(const Context* context) {
-    if (chooser().search_slices(context)) return hand_over();
+std::optional<std::vector<SplitPoint>> SplitPlanner::lay_slices() {
+    if (chooser().lay_slices()) return hand_over();
     rest();
     return std::nullopt;
 }

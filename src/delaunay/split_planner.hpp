@@ -27,8 +27,8 @@ public:
     [[nodiscard]] bool leaves_open() const { return chooser_ ? chooser_->leaves_open() : plan_.leaves_open; }
     /// `SplitChooser::close_by_baseline`; hands over the changed plan.
     [[nodiscard]] std::vector<SplitPoint> close_by_baseline();
-    /// `SplitChooser::search_slices`; hands over the plan.
-    [[nodiscard]] std::optional<std::vector<SplitPoint>> search_slices(const Context* context);
+    /// `SplitChooser::lay_slices`; hands over the plan.
+    [[nodiscard]] std::optional<std::vector<SplitPoint>> lay_slices();
     /// `SplitChooser::mend`; hands over the changed plan.
     [[nodiscard]] std::optional<std::vector<SplitPoint>> mend(std::span<const std::array<VertexId, 2>> edges);
     /// `SplitChooser::take_better_regions`; hands over the changed plan.
