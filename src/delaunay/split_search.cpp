@@ -41,6 +41,7 @@ constexpr double pair_share = 0.5;
 constexpr std::size_t memory = 512;  ///< tries after which what moves have gained counts half
 /// The search ends when it takes away less than 1/400 of the points in a stretch of work.
 constexpr std::uint64_t work_per_point = 10'000;
+constexpr std::uint64_t least_attempt = 100;
 constexpr std::uint64_t least_stretch = 2'000'000;
 /// Small meshes get more time for each point, as it hardly counts.
 constexpr std::uint64_t small_stretch = 25'000'000;
@@ -353,6 +354,9 @@ void SplitSearch::improve(std::uint64_t work, const Context* context) {
         if (!open_.empty() &&
             (spare_.empty() || static_cast<double>(open_work) <= open_share * static_cast<double>(done))) {
             attempt_any_open();
+            // Where nothing may move, attempts end before they have done any work, and would never use it up.
+            const std::uint64_t spent = model_.work() - start - done;
+            if (spent < least_attempt) model_.count_work(least_attempt - spent);
             open_work += model_.work() - start - done;
         } else {
             const std::size_t i = random_.below(spare_.size());
