@@ -167,5 +167,22 @@ TEST(ThinTubes, WithUnevenEndsDoNotCostWhatShellsNeed) {
     EXPECT_LT(report.splits, 500u);
 }
 
+/// Lines at right angles to needles that lean, as all but a few do here, wind around without end: shells put more than
+/// a million points in. Planes do with ten for each edge that must be split.
+TEST(LeaningNeedles, AreCutByPlanes) {
+    PolygonSoup soup = make_sample("icosphere", 320);
+    for (Vec3& p : soup.points) p.x *= 1e6;
+    const Mesh before(soup);
+    Mesh mesh = before;
+    const RemeshReport report = make_delaunay(mesh, options_of(SplitPlacement::fewest, 1));
+    ASSERT_EQ(report.stop, StopReason::done);
+    EXPECT_EQ(validate(mesh), "");
+    EXPECT_EQ(check_delaunay(mesh), "");
+    EXPECT_EQ(check_preserved(before, mesh, report.provenance, 1e-13), "");
+    EXPECT_LT(report.splits, 15 * report.lower_bound);
+    Mesh shells = before;
+    EXPECT_EQ(make_delaunay(shells, options_of(SplitPlacement::shells)).stop, StopReason::max_vertices);
+}
+
 }  // namespace
 }  // namespace delmesh
