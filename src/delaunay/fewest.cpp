@@ -19,7 +19,7 @@ namespace {
 /// Rounds of mending, in the model, what rounding breaks.
 constexpr int most_mendings = 3;
 /// Where construction and shells together need more splits than these, shells alone are tried instead.
-constexpr std::size_t most_splits_per_edge = 20;
+constexpr std::size_t most_splits_per_edge = 40;
 constexpr std::size_t least_most_splits = 500;
 
 /// Rounds of parting sheets that want the same edges; points in a plan for the next sheets may bring new ones.
