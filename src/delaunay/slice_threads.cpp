@@ -56,14 +56,25 @@ void SliceThreads::gather(std::uint32_t e) {
 
 // --- where ---
 
-/// The direction of most of the edges' length.
+/// The direction of most of the edges' length. The same bits at any scale that is a power of two.
 void SliceThreads::find_axis() {
     const Mesh& mesh = model_.layout().marked().mesh();
+    const auto along = [&](std::uint32_t e) {
+        const HalfedgeId h = model_.layout().edge(e).halfedge;
+        return mesh.point(mesh.target(h)) - mesh.point(mesh.origin(h));
+    };
+    double largest = 0;
+    for (const std::uint32_t e : edges_) {
+        const Vec3 d = along(e);
+        largest = std::max({largest, std::fabs(d.x), std::fabs(d.y), std::fabs(d.z)});
+    }
+    int exponent = 0;
+    (void)std::frexp(largest, &exponent);
     std::array<Vec3, 3> sum{};
     double longest = 0;
     for (const std::uint32_t e : edges_) {
-        const HalfedgeId h = model_.layout().edge(e).halfedge;
-        const Vec3 d = mesh.point(mesh.target(h)) - mesh.point(mesh.origin(h));
+        const Vec3 far = along(e);
+        const Vec3 d{std::ldexp(far.x, -exponent), std::ldexp(far.y, -exponent), std::ldexp(far.z, -exponent)};
         sum[0] = sum[0] + d * d.x;
         sum[1] = sum[1] + d * d.y;
         sum[2] = sum[2] + d * d.z;

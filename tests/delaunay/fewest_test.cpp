@@ -10,7 +10,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <numeric>
@@ -180,6 +182,11 @@ TEST(LeaningNeedles, AreCutByPlanes) {
     EXPECT_EQ(check_delaunay(mesh), "");
     EXPECT_EQ(check_preserved(before, mesh, report.provenance, 1e-13), "");
     EXPECT_LT(report.splits, 15 * report.lower_bound);
+    for (Vec3& p : soup.points) p = p * std::ldexp(1.0, -498);
+    Mesh tiny(soup);
+    (void)make_delaunay(tiny, options_of(SplitPlacement::fewest, 1));
+    EXPECT_EQ(tiny.vertex_count(), mesh.vertex_count());
+    EXPECT_TRUE(std::equal(tiny.corners().begin(), tiny.corners().end(), mesh.corners().begin(), mesh.corners().end()));
     Mesh shells = before;
     EXPECT_EQ(make_delaunay(shells, options_of(SplitPlacement::shells)).stop, StopReason::max_vertices);
 }
