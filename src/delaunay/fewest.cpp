@@ -184,7 +184,7 @@ private:
     /// region. Where they do not end, the region is taken from the baseline.
     TrialPointer by_search(SplitPlanner& planner) {
         TrialPointer trial = by_plan(planner, planner.search(context_));
-        if (most_by_plan_ == unlimited && !trial->done() && !trial->cancelled() && !has_sliced_)
+        if (most_by_plan_ == unlimited && !trial->done() && !trial->cancelled() && may_part_ && !has_sliced_)
             return by_slices(std::move(trial));
         if (!planner.leaves_open() || trial->done() || trial->cancelled()) return trial;
         trial.reset();
