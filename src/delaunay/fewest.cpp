@@ -146,9 +146,11 @@ private:
     TrialPointer better_of(Baseline& shells) {
         if (TrialPointer trial = by_probes(shells)) return trial;
         most_by_plan_ = shells.done() ? 2 * shells.report.splits : unlimited;
-        SplitPlanner planner(marked_, start_.bad, {static_cast<int>(options_.effort), options_.seed}, shells.splits);
-        TrialPointer trial = by_search(planner);
-        const bool is_broken = misses_its_plan(*trial) && !planner.leaves_open();
+        std::optional<SplitPlanner> planner(std::in_place, marked_, start_.bad,
+                                            SplitSearchOptions{static_cast<int>(options_.effort), options_.seed}, shells.splits);
+        TrialPointer trial = by_search(*planner);
+        const bool is_broken = misses_its_plan(*trial) && !planner->leaves_open();
+        if (!shells.done()) planner.reset();  // has nothing to say about regions
         if (is_broken && may_part_ && !has_other_way_ && !blocked_.plan.empty() && !trial->cancelled()) {
             if (!trial->done()) trial.reset();
             TrialPointer parted = by_parting();
@@ -173,8 +175,8 @@ private:
         }
         // By now it is known what the points cost in truth: regions where the shells need fewer take these.
         TrialPointer second;
-        if (auto plan = planner.take_better_regions(trial->marked.splits()))
-            second = by_plan(planner, std::move(*plan));
+        if (auto plan = planner->take_better_regions(trial->marked.splits()))
+            second = by_plan(*planner, std::move(*plan));
         if (second && second->cancelled()) return second;
         if (second && second->beats(trial->report)) trial = std::move(second);
         return trial->beats(shells.report) ? std::move(trial) : nullptr;
@@ -184,7 +186,8 @@ private:
     /// region. Where they do not end, the region is taken from the baseline.
     TrialPointer by_search(SplitPlanner& planner) {
         TrialPointer trial = by_plan(planner, planner.search(context_));
-        if (most_by_plan_ == unlimited && !trial->done() && !trial->cancelled() && may_part_ && !has_sliced_)
+        const bool explodes = most_by_plan_ == unlimited && !trial->done() && !trial->cancelled();
+        if (explodes && may_part_ && !has_sliced_ && !has_other_way_)
             return by_slices(std::move(trial));
         if (!planner.leaves_open() || trial->done() || trial->cancelled()) return trial;
         trial.reset();
@@ -198,13 +201,15 @@ private:
         SplitPlanner planner(marked_, start_.bad, {static_cast<int>(options_.effort), options_.seed}, none);
         auto plan = planner.lay_slices();
         if (!plan) return trial;
+        trial.reset();
         const std::size_t failed = failed_.size();
-        TrialPointer sliced = by_plan(planner, std::move(*plan));
+        trial = by_plan(planner, std::move(*plan));
         failed_.resize(failed);
-        return sliced->done() || sliced->cancelled() ? std::move(sliced) : std::move(trial);
+        return trial;
     }
 
     void note_blocked(Trial& trial, const std::vector<SplitPoint>& plan, const std::vector<HalfedgeId>& left) {
+        if (has_other_way_ && may_part_) return;
         const auto is_blocked = [&](HalfedgeId h) { return edge_in_the_way(trial.marked, h).valid(); };
         if (left.size() < blocked_.open && std::any_of(left.begin(), left.end(), is_blocked))
             blocked_ = {left.size(), plan};
@@ -252,11 +257,13 @@ private:
         return !trial.done() || trial.report.splits > trial.planned + trial.planned / 10 + 10;
     }
 
+    /// Where the shells that finish a plan explode.
+    [[nodiscard]] static std::size_t some_more_than(std::size_t planned) { return planned + planned / 4 + 10'000; }
+
     /// Stops early where the shells that finish it explode.
     TrialPointer by_plan(SplitPlanner& planner, std::vector<SplitPoint> plan) {
-        constexpr std::size_t some = 10'000;
         for (int mendings = most_mendings;;) {
-            const std::size_t most = most_by_plan_ != unlimited ? most_by_plan_ : plan.size() + plan.size() / 4 + some;
+            const std::size_t most = most_by_plan_ != unlimited ? most_by_plan_ : some_more_than(plan.size());
             std::vector<HalfedgeId> left;
             TrialPointer trial = carry_out_plan(plan, std::min(most, most_splits_), left);
             if (!left.empty() && trial->done() && mendings > 0) {
@@ -270,13 +277,15 @@ private:
             const std::size_t still_open = left.size();
             note_blocked(*trial, plan, left);
             finish(*trial, std::min(most, most_splits_), std::move(left));
-            if (trial->report.stop == StopReason::max_vertices) failed_.push_back({still_open, std::move(plan)});
+            if (trial->report.stop == StopReason::max_vertices && !has_other_way_)
+                failed_.push_back({still_open, std::move(plan)});
             return trial;
         }
     }
 
     TrialPointer carry_out_plan(const std::vector<SplitPoint>& plan, std::size_t most, std::vector<HalfedgeId>& left) {
-        auto trial = std::make_unique<Trial>(marked_, report_, plan.size() + plan.size() / 8);
+        // With room for explosions, up to where they are stopped: growing takes the mesh twice.
+        auto trial = std::make_unique<Trial>(marked_, report_, some_more_than(plan.size()));
         trial->planned = marked_.split_count() + plan.size();
         const RemeshOptions options = with_at_most_splits(options_, marked_.mesh(), most);
         if (is_cancelled(context_)) {

@@ -63,7 +63,7 @@ private:
             const auto [h, urgency] = queue_.pop();
             ask_ahead();
             if (++popped_ % 4096 == 0) take_breath(h);
-            if (!is_non_delaunay(mesh_, h) || urgency != urgency_of(h)) continue;
+            if (!is_wanted(h) || !is_non_delaunay(mesh_, h) || urgency != urgency_of(h)) continue;
             treat(h);
             push_touched();
         }

@@ -157,8 +157,8 @@ Attempt better_way(Mesh& mesh, std::size_t most_splits, const RemeshOptions& opt
     return published;
 }
 
-/// Where needles that rounding has made stop mode feature short, they lose their long sides first, features or not. Not
-/// done if that is not what stops it.
+/// Where most of what fails is needles that rounding has made, they lose their long sides first, features or not. Not
+/// done elsewhere.
 Attempt without_flat_caps(const Mesh& mesh, std::size_t most_splits, const RemeshOptions& options,
                           const Context* context, const RemeshReport& so_far) {
     const bool may_flatten = options.mode == RemeshMode::feature && options.feature_edges.empty() &&
@@ -178,27 +178,32 @@ Attempt without_flat_caps(const Mesh& mesh, std::size_t most_splits, const Remes
     return result;
 }
 
+/// Needles that rounding has made are to cost no thousands of splits where hardly any are needed without them.
+constexpr std::size_t most_beside(std::size_t splits_without_caps) {
+    return 1000 + 2 * splits_without_caps;
+}
+
+/// Needles make any way explode, but seldom all: millions of splits are only tried if nothing else is left.
+Attempt best_way(Mesh& mesh, const RemeshOptions& options, const Context* context, const RemeshReport& so_far) {
+    const std::size_t few = 100'000 + 10 * std::min(mesh.vertex_count(), find_non_delaunay(mesh, context).size());
+    Attempt flattened = without_flat_caps(mesh, few, options, context, so_far);
+    if (flattened.cancelled()) return flattened;
+    const std::size_t most = flattened.done() ? most_beside(flattened.report.splits) : few;
+    Attempt best = better_way(mesh, most, options, context, so_far);
+    if (best.done() || best.cancelled()) return best;
+    if (flattened.done()) return flattened;
+    const bool limited = options.max_vertices != 0 && options.max_vertices <= mesh.vertex_count() + few;
+    if (best.report.stop != StopReason::max_vertices || limited) return best;
+    best = {};
+    return better_way(mesh, std::numeric_limits<std::uint32_t>::max(), options, context, so_far);
+}
+
 }  // namespace
 
 void flip_surface(Mesh& mesh, const RemeshOptions& options, const Context* context, RemeshReport& report) {
     if (options.placement == SplitPlacement::shells)
         return flip_surface(mesh, Way::published, options, context, report);
-
-    // Needles make either way explode, but seldom both: millions of splits are only tried if nothing else is left.
-    const std::size_t few = 100'000 + 10 * std::min(mesh.vertex_count(), find_non_delaunay(mesh, context).size());
-    constexpr std::size_t many = std::numeric_limits<std::uint32_t>::max();
-    Attempt best = better_way(mesh, few, options, context, report);
-    const bool limited = options.max_vertices != 0 && options.max_vertices <= mesh.vertex_count() + few;
-    const bool goes_on = best.report.stop == StopReason::max_vertices && !limited;
-    if (!best.done() && !best.cancelled()) {
-        if (goes_on) best.mesh = {};
-        Attempt flattened = without_flat_caps(mesh, few, options, context, report);
-        if (flattened.done() || flattened.cancelled()) best = std::move(flattened);
-    }
-    if (goes_on && !best.done() && !best.cancelled()) {
-        best = {};
-        best = better_way(mesh, many, options, context, report);
-    }
+    Attempt best = best_way(mesh, options, context, report);
     mesh = std::move(best.mesh);
     report = std::move(best.report);
 }

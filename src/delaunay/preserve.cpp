@@ -121,8 +121,9 @@ void preserve_automatically(Mesh& mesh, const RemeshOptions& options, const Cont
     const RemeshReport before = report;
     const auto is_over = [&] { return report.stop == StopReason::done || report.stop == StopReason::cancelled; };
     const auto start_again = [&] {
-        mesh = original;
-        report = before;
+        // Moved, which gives back the room that the explosion took.
+        mesh = Mesh(original);
+        report = RemeshReport(before);
     };
     preserve_surface(mesh, exact, context, report, true);
     if (is_over()) return;
