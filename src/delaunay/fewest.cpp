@@ -147,7 +147,8 @@ private:
         if (TrialPointer trial = by_probes(shells)) return trial;
         most_by_plan_ = shells.done() ? 2 * shells.report.splits : unlimited;
         std::optional<SplitPlanner> planner(std::in_place, marked_, start_.bad,
-                                            SplitSearchOptions{static_cast<int>(options_.effort), options_.seed}, shells.splits);
+                                            SplitSearchOptions{static_cast<int>(options_.effort), options_.seed},
+                                            shells.splits);
         TrialPointer trial = by_search(*planner);
         const bool is_broken = misses_its_plan(*trial) && !planner->leaves_open();
         if (!shells.done()) planner.reset();  // has nothing to say about regions
@@ -187,8 +188,7 @@ private:
     TrialPointer by_search(SplitPlanner& planner) {
         TrialPointer trial = by_plan(planner, planner.search(context_));
         const bool explodes = most_by_plan_ == unlimited && !trial->done() && !trial->cancelled();
-        if (explodes && may_part_ && !has_sliced_ && !has_other_way_)
-            return by_slices(std::move(trial));
+        if (explodes && may_part_ && !has_sliced_ && !has_other_way_) return by_slices(std::move(trial));
         if (!planner.leaves_open() || trial->done() || trial->cancelled()) return trial;
         trial.reset();
         return by_plan(planner, planner.close_by_baseline());

@@ -259,6 +259,24 @@ TEST(FlatTolerance, ByDefaultModeFeatureLosesTheNeedlesThatStopIt) {
     EXPECT_EQ(exact.flat_tolerance, 0);
 }
 
+TEST(FlatTolerance, ModeFeatureSplitsNoNeedlesByTheThousand) {
+    const Mesh before = needles_by_rounding(1010);
+    RemeshOptions options;
+    options.mode = RemeshMode::feature;
+    options.effort = 0;
+    Mesh mesh = before;
+    const RemeshReport report = make_delaunay(mesh, options);
+    EXPECT_EQ(report.stop, StopReason::done);
+    EXPECT_EQ(report.splits, 0u);
+    EXPECT_EQ(report.flips, 1010u);
+    EXPECT_GT(report.max_deviation, 0);
+    EXPECT_LE(report.max_deviation, report.flat_tolerance);
+    EXPECT_EQ(check_delaunay(mesh), "");
+    options.flat_tolerance_rel = {FlatRule::given, 0};
+    Mesh exact = before;
+    EXPECT_GE(make_delaunay(exact, options).splits, 1010u);
+}
+
 /// A triangle of height h over its side along x, and a proper one on the other side.
 Mesh cap_over(double length, double at, double height, double beyond) {
     PolygonSoup soup;

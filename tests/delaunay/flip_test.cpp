@@ -190,6 +190,30 @@ TEST_P(Flip, FeaturesAreTiledByEdgesOfTheOutput) {
     }
 }
 
+/// Heights of few values over a grid: many edges are equally far from Delaunay.
+Mesh steps(std::uint64_t seed) {
+    PolygonSoup soup = make_sample("plate", 400);
+    test::Random random(seed);
+    for (Vec3& p : soup.points) p = {std::round(8 * p.x), std::round(8 * p.y), std::floor(3 * random.unit())};
+    return Mesh(soup);
+}
+
+TEST(Features, FlipsAloneSplitNothing) {
+    RemeshOptions options = options_of(RemeshMode::feature);
+    options.finish = FlipFinish::literal;
+    std::size_t flips = 0;
+    for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+        options.order = static_cast<FlipOrder>(seed % 3);
+        Mesh mesh = steps(seed);
+        MarkedMesh marked(mesh, mark_features(mesh, 60, {}, nullptr), {});
+        RemeshReport report;
+        flip_edges(marked, false, options, nullptr, report);
+        flips += report.flips;
+        ASSERT_EQ(report.splits, 0u) << seed;
+    }
+    EXPECT_GT(flips, 1000u);
+}
+
 TEST(Features, TheLimitOnVerticesHoldsForBothWays) {
     for (const RemeshMode mode : {RemeshMode::flip, RemeshMode::feature}) {
         for (const std::size_t more : {0, 1, 20}) {
