@@ -36,7 +36,7 @@ void run(std::uint8_t choice, const Mesh& mesh) {
         options.order = static_cast<FlipOrder>((choice >> 5) % 3);
         options.max_vertices = mesh.vertex_count() + 300;
         options.placement = (choice & 4) != 0 ? SplitPlacement::shells : SplitPlacement::fewest;
-        options.effort = 0;
+        options.effort = choice >> 6 == 3 ? 1 : 0;
         remesh(mesh, options);
     }
 }
@@ -45,7 +45,8 @@ void run(std::uint8_t choice, const Mesh& mesh) {
 
 std::vector<std::string> seeds() {
     std::vector<std::string> result;
-    for (const std::string& seed : soup_seeds()) result.push_back('\0' + seed);
+    for (const char choice : {'\0', '\xc0'})
+        for (const std::string& seed : soup_seeds()) result.push_back(choice + seed);
     return result;
 }
 
