@@ -12,6 +12,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double farthest = 0.75;  ///< from the border, of the shortest rung
 constexpr double nearest = 1e-8;
 constexpr double finer = 0.85;       ///< distances that are tried
+constexpr double coarser = 0.5;      ///< the same, where there is little work to do that with
 constexpr double far_enough = 0.05;  ///< threads that come so far may meet those from the other border
 /// A thread that is stiffer may be nearer by so much.
 constexpr double near_enough = 0.3;
@@ -243,7 +244,7 @@ void RingThreads::grow(int border) {
 /// Distances to try beyond a thread at `last`, the farthest first.
 void RingThreads::list_distances(double last) {
     distances_.clear();
-    for (double d = farthest * shortest_; d > small_steps[0] * last; d *= finer) distances_.push_back(d);
+    for (double d = farthest * shortest_; d > small_steps[0] * last; d *= step_) distances_.push_back(d);
     for (const double step : small_steps) distances_.push_back(step * last);
 }
 
@@ -309,6 +310,7 @@ bool RingThreads::join(std::size_t most) {
 
 bool RingThreads::plan(std::span<const Rung> rungs, bool is_quick) {
     rungs_ = rungs;
+    step_ = is_quick ? coarser : finer;
     from_border_ = {};
     if (rungs.size() < 3 || !lay_out(rungs)) return false;
     std::size_t fewest = 0;

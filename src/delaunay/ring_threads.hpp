@@ -78,6 +78,7 @@ private:
     std::span<const Rung> rungs_;
     std::vector<double> distances_;
     Taste taste_;
+    double step_ = 0;      ///< from one distance that is tried to the next, as a factor
     double shortest_ = 0;  ///< rung
     std::vector<double> lengths_;
     std::array<std::vector<double>, styles> sizes_;  ///< for each rung: what is wide enough for threads to go farther
