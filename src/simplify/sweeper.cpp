@@ -68,10 +68,8 @@ Sweeper::Sweeper(Mesh& mesh, const Tuning& tuning, Precision precision, Numberin
       weights_(reordered(mesh, numbering, scale_), scale_, tuning_),
       vertices_(mesh.vertex_count()),
       key_(mesh.halfedge_count(), -1),
-      failed_(mesh.halfedge_count()),
-      witness_(mesh.halfedge_count()),
-      changed_(mesh.vertex_count()),
-      merged_(mesh.vertex_count()),
+      waits_(mesh.halfedge_count()),
+      watches_(mesh.vertex_count()),
       far_at_(mesh.vertex_count(), none),
       parent_(numbering.vertex_names()) {
     for (std::size_t v = 0; v < parent_.size(); ++v) parent_[v] = VertexId(v);
@@ -81,7 +79,7 @@ void Sweeper::run(std::size_t vertices, const Context* context) {
     const std::size_t start = vertices_;
     int poor = 0;
     while (vertices_ > vertices && !is_cancelled(context)) {
-        ++sweep_;
+        merged_.assign(mesh_.vertex_count(), false);
         const std::size_t before = vertices_;
         sweep(vertices, choose_limit(), context);
         if (before - vertices_ <= vertices_ / 256) {
@@ -105,7 +103,7 @@ float Sweeper::choose_limit() {
     const std::size_t stride = 1 + mesh_.halfedge_count() / keys_looked_at;
     for (std::size_t i = 0; i < mesh_.halfedge_count(); i += stride) {
         const HalfedgeId h(i);
-        if (mesh_.origin(h).valid() && mesh_.names_edge(h) && !is_waiting(h)) some_keys_.push_back(key_of(h));
+        if (mesh_.origin(h).valid() && mesh_.names_edge(h) && !waits_[i]) some_keys_.push_back(key_of(h));
     }
     if (some_keys_.empty()) return 0;
     const auto at =
@@ -120,8 +118,8 @@ void Sweeper::sweep(std::size_t vertices, float limit, const Context* context) {
         if (i % report_interval == 0 && is_cancelled(context)) return;
         const HalfedgeId h(i);
         const VertexId u = mesh_.origin(h);
-        if (!u.valid() || merged_[u.index()] == sweep_ || !mesh_.names_edge(h)) continue;
-        if (merged_[mesh_.target(h).index()] == sweep_ || is_waiting(h)) continue;
+        if (!u.valid() || waits_[i] || merged_[u.index()] || !mesh_.names_edge(h)) continue;
+        if (merged_[mesh_.target(h).index()]) continue;
         if (key_of(h) <= limit) visit(h, limit);
     }
 }
@@ -132,15 +130,16 @@ float Sweeper::key_of(HalfedgeId h) {
     return key;
 }
 
-/// Nothing has changed at the condition that failed.
-bool Sweeper::is_waiting(HalfedgeId h) const {
-    const std::uint32_t failed = failed_[h.index()];
-    return failed > 0 && changed_[witness_[h.index()].index()] < failed;
+void Sweeper::wait(HalfedgeId h, VertexId witness) {
+    waits_[h.index()] = true;
+    watches_.add(witness, h);
 }
 
-void Sweeper::wait(HalfedgeId h, VertexId witness) {
-    failed_[h.index()] = ++now_;
-    witness_[h.index()] = witness;
+/// The faces around v have changed.
+void Sweeper::wake(VertexId v) {
+    woken_.clear();
+    watches_.take(v, woken_);
+    for (const HalfedgeId h : woken_) waits_[h.index()] = false;
 }
 
 void Sweeper::visit(HalfedgeId h, float limit) {
@@ -216,9 +215,10 @@ void Sweeper::accept(HalfedgeId h, const Vec3& w) {
     parent_[numbering_.name(gone).index()] = numbering_.name(kept);
     --vertices_;
     ++collapses_;
-    merged_[kept.index()] = sweep_;
-    changed_[kept.index()] = changed_[gone.index()] = now_;
-    for (const Star::Corner& corner : star_.ring) changed_[corner.vertex.index()] = now_;
+    merged_[kept.index()] = true;
+    wake(kept);
+    wake(gone);
+    for (const Star::Corner& corner : star_.ring) wake(corner.vertex);
     each_outgoing(mesh_, kept, [&](HalfedgeId at) { key_[at.index()] = key_[Mesh::prev(at).index()] = -1; });
 }
 
@@ -226,15 +226,13 @@ void Sweeper::accept(HalfedgeId h, const Vec3& w) {
 void Sweeper::tidy() {
     const CompactMap map = numbering_.close_gaps(mesh_);
     weights_.close_gaps(map.vertex);
-    for (std::size_t h = 0; h < failed_.size(); ++h) {
-        witness_[h] = failed_[h] > 0 ? map.vertex[witness_[h].index()] : VertexId();
-        if (!witness_[h].valid()) failed_[h] = 0;
-    }
+    watches_.close_gaps(map.vertex, [&map](HalfedgeId& h) {
+        const FaceId face = map.face[Mesh::face(h).index()];
+        h = HalfedgeId(face.value() * 3 + h.value() % 3);
+        return face.valid();
+    });
     move_sides_down(key_, map.face);
-    move_sides_down(failed_, map.face);
-    move_sides_down(witness_, map.face);
-    move_down(changed_, map.vertex);
-    move_down(merged_, map.vertex);
+    move_sides_down(waits_, map.face);
     move_down(far_at_, map.vertex);
 }
 

@@ -8,6 +8,7 @@
 #include "simplify/placement.hpp"
 #include "simplify/star.hpp"
 #include "simplify/tuning.hpp"
+#include "simplify/watchlists.hpp"
 #include "simplify/weights.hpp"
 
 #include <cstdint>
@@ -44,11 +45,11 @@ private:
         Vec3 point;
     };
     [[nodiscard]] float key_of(HalfedgeId h);
-    [[nodiscard]] bool is_waiting(HalfedgeId h) const;
     [[nodiscard]] float choose_limit();
     void sweep(std::size_t vertices, float limit, const Context* context);
     void visit(HalfedgeId h, float limit);
     void wait(HalfedgeId h, VertexId witness);
+    void wake(VertexId v);
     [[nodiscard]] Drift find_drift(const Vec3& w) const;
     void accept(HalfedgeId h, const Vec3& w);
     void keep_far(VertexId kept, VertexId gone, const Vec3& point);
@@ -67,15 +68,13 @@ private:
     double worst_error2_ = 0;
     double drift_limit2_ = std::numeric_limits<double>::infinity();  ///< squared, local unit
     double drift_sum_ = 0;
-    std::uint32_t now_ = 1;               ///< counts failures
-    std::uint32_t sweep_ = 0;             ///< counts sweeps
-    std::vector<float> key_;              ///< per half-edge that names an edge: its cost; negative: not known
-    std::vector<std::uint32_t> failed_;   ///< per half-edge: when it was last found blocked; 0: never
-    std::vector<VertexId> witness_;       ///< per half-edge: the vertex that must change before it is tried again
-    std::vector<std::uint32_t> changed_;  ///< per vertex: when the faces around it last changed
-    std::vector<std::uint32_t> merged_;   ///< per vertex: the sweep in which something was last merged into it
-    std::vector<std::uint32_t> far_at_;   ///< per vertex: where its far point stands; none: nothing was merged into it
-    std::deque<Vec3> far_;                ///< of what was merged into a vertex, the farthest from the surface
+    std::vector<float> key_;             ///< per half-edge that names an edge: its cost; negative: not known
+    std::vector<bool> waits_;            ///< per half-edge: it was blocked, and nothing has changed at what blocked it
+    Watchlists<HalfedgeId> watches_;     ///< who waits for a vertex to change
+    std::vector<HalfedgeId> woken_;
+    std::vector<bool> merged_;           ///< per vertex: something was merged into it in this sweep
+    std::vector<std::uint32_t> far_at_;  ///< per vertex: where its far point stands; none: nothing was merged into it
+    std::deque<Vec3> far_;               ///< of what was merged into a vertex, the farthest from the surface
     std::vector<std::uint32_t> far_free_;
     std::vector<VertexId> parent_;  ///< by name, the name of what it was merged into, or its own
     std::vector<float> some_keys_;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 namespace delmesh {
@@ -37,6 +38,27 @@ public:
             node = next;
         }
     }
+    /// The vertices have got other ids, in the same order; `moved` gives the items theirs, and tells whether they stay.
+    template <class Moved>
+    void close_gaps(const std::vector<VertexId>& ids, Moved&& moved) {
+        for (std::size_t v = 0; v < ids.size(); ++v) {
+            std::uint32_t* link = &first_[v];
+            while (*link != none) {
+                const std::uint32_t node = *link;
+                if (ids[v].valid() && moved(nodes_[node].item)) {
+                    link = &nodes_[node].next;
+                    continue;
+                }
+                *link = nodes_[node].next;
+                nodes_[node].next = free_;
+                free_ = node;
+            }
+            if (ids[v].valid()) first_[ids[v].index()] = first_[v];
+        }
+        first_.resize(static_cast<std::size_t>(
+            std::count_if(ids.begin(), ids.end(), [](const VertexId id) { return id.valid(); })));
+        first_.shrink_to_fit();
+    }
     /// Empties all lists.
     void clear() {
         std::fill(first_.begin(), first_.end(), none);
@@ -52,7 +74,7 @@ private:
     };
 
     std::vector<std::uint32_t> first_;
-    std::vector<Node> nodes_;
+    std::deque<Node> nodes_;  ///< grows without a copy
     std::uint32_t free_ = none;
 };
 
