@@ -6,53 +6,36 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace delmesh {
 
+SurfaceSamples::Sample SurfaceSamples::sample_of(const SampleSource& source, std::size_t i) {
+    const SampleSource::Facing facing = source.facing(i);
+    return {.point = source.point(i), .normal = facing.normal, .weight = facing.weight};
+}
+
 SurfaceSamples::SurfaceSamples(const Mesh& mesh, std::size_t count, double scale, std::size_t most)
     : first_(mesh.face_count(), none) {
-    const auto normal_of = [&](HalfedgeId h) {
-        const Frame frame{scale, 1 / scale, mesh.point(mesh.origin(h))};
-        return cross(frame.to_local(mesh.point(mesh.target(h))), frame.to_local(mesh.point(mesh.apex(h))));
-    };
-    const std::size_t vertices = std::min(count, mesh.vertex_count());
-    const std::size_t all = vertices + mesh.face_count();
-    const std::size_t stride = std::max<std::size_t>(1, all / std::max<std::size_t>(1, most));
-    stride_ = static_cast<double>(stride);
-    samples_.reserve(all / stride + 2);
-    near_.reserve(all / stride + 2);
-    for (std::size_t i = 0; i < vertices; i += stride) {
-        const VertexId v(i);
-        if (!mesh.halfedge(v).valid()) continue;
-        Vec3 normal;
-        each_outgoing(mesh, v, [&](HalfedgeId h) { normal = normal + normal_of(h); });
-        add(mesh.point(v), normal * (1.0 / 12), Mesh::face(mesh.halfedge(v)), v);
-    }
-    for (std::size_t f = 0; f < mesh.face_count(); f += stride) {
-        const HalfedgeId h = Mesh::halfedge(FaceId(f));
-        const Vec3 third = (mesh.point(mesh.origin(h)) * (1.0 / 3) + mesh.point(mesh.target(h)) * (1.0 / 3)) +
-                           mesh.point(mesh.apex(h)) * (1.0 / 3);
-        add(third, normal_of(h) * 0.75, FaceId(f), mesh.origin(h));
+    const SampleSource source(mesh, count, scale, most);
+    stride_ = static_cast<double>(source.stride());
+    samples_.reserve(source.size());
+    for (std::size_t i = 0; i < source.size(); ++i) {
+        std::uint32_t& first = first_[source.face(mesh, i).index()];
+        samples_.push_back(sample_of(source, i));
+        samples_[i].next = first;
+        first = static_cast<std::uint32_t>(i);
+        weight_ += samples_[i].weight;
     }
 }
 
-void SurfaceSamples::add(const Vec3& point, const Vec3& normal, FaceId face, VertexId near) {
-    Sample sample;
-    sample.point = point;
-    const double length = std::sqrt(squared_norm(normal));
-    if (length > 0)
-        for (int axis = 0; axis < 3; ++axis) sample.normal[axis] = static_cast<float>(normal[axis] / length);
-    sample.weight = static_cast<float>(length);
-    weight_ += sample.weight;
-    sample.next = first_[face.index()];
-    first_[face.index()] = static_cast<std::uint32_t>(samples_.size());
-    samples_.push_back(sample);
-    near_.push_back(near);
-}
+SurfaceSamples::SurfaceSamples(SampleSource source)
+    : stride_(static_cast<double>(source.stride())),
+      source_(std::move(source)) {}
 
 /// The nearest of the faces at v, or at a vertex that is nearer, and so on.
-FaceId SurfaceSamples::find_nearest(const Mesh& mesh, double scale, VertexId v, Sample& sample) {
-    const Frame frame{scale, 1 / scale, sample.point};
+FaceId SurfaceSamples::find_nearest(const Mesh& mesh, double scale, VertexId v, const Vec3& point, float& distance2) {
+    const Frame frame{scale, 1 / scale, point};
     double best = std::numeric_limits<double>::infinity();
     FaceId face;
     for (VertexId at = v; at.valid();) {
@@ -70,31 +53,34 @@ FaceId SurfaceSamples::find_nearest(const Mesh& mesh, double scale, VertexId v, 
         });
         at = next == at ? VertexId() : next;
     }
-    sample.distance2 = static_cast<float>(best);
+    distance2 = static_cast<float>(best);
     return face;
 }
 
 void SurfaceSamples::reattach(const Mesh& mesh, double scale, const std::vector<VertexId>& now) {
-    std::vector<FaceId> face(samples_.size());
+    const std::size_t count = source_->size();
+    std::vector<FaceId> face(count);
+    std::vector<float> distance2(count);
     std::vector<std::uint32_t> place(mesh.face_count() + 1);
-    for (std::size_t i = 0; i < samples_.size(); ++i) {
-        face[i] = find_nearest(mesh, scale, now[near_[i].index()], samples_[i]);
+    for (std::size_t i = 0; i < count; ++i) {
+        face[i] = find_nearest(mesh, scale, now[source_->near(i).index()], source_->point(i), distance2[i]);
         ++place[face[i].index() + 1];
     }
     for (std::size_t f = 1; f < place.size(); ++f) place[f] += place[f - 1];
     // In the order of the faces: what is used together lies together.
-    std::vector<Sample> sorted(samples_.size());
+    samples_.resize(count);
     first_.assign(mesh.face_count(), none);
-    sum_ = 0;
-    for (std::size_t i = 0; i < samples_.size(); ++i) {
+    sum_ = weight_ = 0;
+    for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t at = place[face[i].index()]++;
-        sorted[at] = samples_[i];
-        sorted[at].next = first_[face[i].index()];
+        Sample& sample = samples_[at] = sample_of(*source_, i);
+        sample.distance2 = distance2[i];
+        sample.next = first_[face[i].index()];
         first_[face[i].index()] = at;
-        sum_ += static_cast<double>(sorted[at].weight) * static_cast<double>(sorted[at].distance2);
+        weight_ += sample.weight;
+        sum_ += static_cast<double>(sample.weight) * static_cast<double>(sample.distance2);
     }
-    samples_.swap(sorted);
-    let_go(near_);
+    source_.reset();
 }
 
 void SurfaceSamples::renumber(const std::vector<FaceId>& ids, std::size_t faces) {

@@ -1,12 +1,13 @@
 #pragma once
 // Samples of the original surface, each attached to the face of the present one that is nearest to it.
 
-#include "base/let_go.hpp"
 #include "delmesh/mesh/mesh.hpp"
+#include "simplify/sample_source.hpp"
 #include "simplify/star.hpp"
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,19 +22,18 @@ struct SampleError {
     [[nodiscard]] double worst() const { return forward > backward ? forward : backward; }
 };
 
-/// Of the first `count` vertices of a mesh and the middles of its faces, followed through collapses and moves. A sample
+/// Of a surface as it was, followed through collapses and moves. A sample
 /// stays with the faces around the vertex that changed, so it keeps to its side of a thin part.
 class SurfaceSamples {
 public:
-    /// Takes about `most` of them, evenly by index.
+    /// See `SampleSource`.
     SurfaceSamples(const Mesh& mesh, std::size_t count, double scale, std::size_t most);
 
+    /// Nothing is asked before `reattach`.
+    explicit SurfaceSamples(SampleSource source);
     /// The mesh has been decimated by somebody else: `now` says which of its vertices the ones at the start have
     /// become.
     void reattach(const Mesh& mesh, double scale, const std::vector<VertexId>& now);
-
-    /// Nothing is asked before the next `reattach`.
-    void rest() { let_go(first_); }
 
     /// The faces have got other ids.
     void renumber(const std::vector<FaceId>& ids, std::size_t faces);
@@ -106,8 +106,9 @@ private:
         Vec3 normal;
         double inverse2 = 0;  ///< 1 / |normal|^2
     };
-    void add(const Vec3& point, const Vec3& normal, FaceId face, VertexId near);
-    [[nodiscard]] static FaceId find_nearest(const Mesh& mesh, double scale, VertexId v, Sample& sample);
+    [[nodiscard]] static Sample sample_of(const SampleSource& source, std::size_t i);
+    [[nodiscard]] static FaceId find_nearest(const Mesh& mesh, double scale, VertexId v, const Vec3& point,
+                                             float& distance2);
     void prepare(const Star& star, const Vec3& w);
     void attach(Member& member, std::size_t faces, const Vec3& from_centre) const;
     [[nodiscard]] double distance2_to_surface(const Vec3& x) const;
@@ -116,8 +117,8 @@ private:
     double sum_ = 0;
     double weight_ = 0;
     double stride_ = 1;  ///< one of so many is followed
+    std::optional<SampleSource> source_;  ///< what is to be attached
     std::vector<Sample> samples_;
-    std::vector<VertexId> near_;        ///< per sample: a vertex close to it at the start
     std::vector<std::uint32_t> first_;  ///< per face
     std::vector<Member> members_;
     std::vector<Spoke> spokes_;

@@ -209,19 +209,20 @@ bool has_hub(const Mesh& mesh) {
     return false;
 }
 
+/// How far the sweeps go.
+std::size_t sweep_until(std::size_t target, const Tuning& tuning) {
+    const double until = target < many ? tuning.sweep_until : tuning.sweep_many;
+    return static_cast<std::size_t>(std::max(least_far, until * static_cast<double>(target)));
+}
+
 /// While there is a long way to go: in sweeps.
 std::unique_ptr<Sweeper> sweep_first(Mesh& mesh, const Tuning& tuning, const SimplifyOptions& options,
-                                     std::size_t target, SurfaceSamples& samples, Numbering& numbering,
-                                     const Context* context) {
-    const double until = target < many ? tuning.sweep_until : tuning.sweep_many;
-    const double far = std::max(least_far, until * static_cast<double>(target));
-    if (!(static_cast<double>(mesh.vertex_count()) > far)) return nullptr;
-    samples.rest();
+                                     std::size_t target, Numbering& numbering, const Context* context) {
     drop_isolated(mesh);
     Tuning quick = tuning;
     quick.ends = target < many;
     auto sweeper = std::make_unique<Sweeper>(mesh, quick, options.remesh.precision, numbering);
-    sweeper->run(static_cast<std::size_t>(far), context);
+    sweeper->run(sweep_until(target, tuning), context);
     return sweeper;
 }
 
@@ -279,14 +280,18 @@ SimplifyReport run(Mesh& mesh, const SimplifyOptions& options, ProgressiveMesh* 
     report.least_vertices = least_vertices(mesh);
     const bool refit = options.refit && shakes && !has_hub(mesh);
     Numbering numbering(mesh);
-    std::optional<SurfaceSamples> samples;
-    if (refit)
-        samples.emplace(mesh, std::min(report.input_vertices, mesh.vertex_count()), local_scale(mesh),
-                        samples_for(targets.front()));
-    std::unique_ptr<Sweeper> sweeper;
     // All steps of a progressive mesh are levels, so they are made with all care.
-    if (refit && record == nullptr)
-        sweeper = sweep_first(mesh, tuning, options, targets.front(), *samples, numbering, context);
+    const bool sweeps =
+        refit && record == nullptr && mesh.vertex_count() > sweep_until(targets.front(), tuning);
+    std::optional<SurfaceSamples> samples;
+    if (refit) {
+        const std::size_t count = std::min(report.input_vertices, mesh.vertex_count());
+        const std::size_t most = samples_for(targets.front());
+        samples = sweeps ? SurfaceSamples(SampleSource(mesh, count, local_scale(mesh), most))
+                         : SurfaceSamples(mesh, count, local_scale(mesh), most);
+    }
+    std::unique_ptr<Sweeper> sweeper;
+    if (sweeps) sweeper = sweep_first(mesh, tuning, options, targets.front(), numbering, context);
     Decimator decimator(mesh, tuning, {options.max_quadric_error_rel * diagonal, options.remesh.precision},
                         record != nullptr ? &recorder : nullptr);
     if (samples) decimator.follow_samples(std::move(*samples));

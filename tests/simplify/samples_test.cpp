@@ -163,7 +163,7 @@ TEST_P(SamplesOf, AreAllKeptAndKnowTheirDistanceAfterDecimation) {
 TEST_P(SamplesOf, AreFoundAgainAfterSweeps) {
     Mesh mesh = delaunay_sample(GetParam(), 3000);
     const std::size_t all = mesh.vertex_count() + mesh.face_count();
-    SurfaceSamples samples(mesh, mesh.vertex_count(), local_scale(mesh), 1'000'000);
+    SurfaceSamples samples(SampleSource(mesh, mesh.vertex_count(), local_scale(mesh), 1'000'000));
     Numbering numbering(mesh);
     Sweeper sweeper(mesh, Tuning{}, Precision::float64, numbering);
     sweeper.run(mesh.vertex_count() / 5, nullptr);
