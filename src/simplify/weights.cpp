@@ -48,39 +48,65 @@ VertexWeights::VertexWeights(const Mesh& mesh, double scale, const Tuning& tunin
     : mesh_(mesh),
       scale_(scale),
       tuning_(tuning),
-      history_(mesh.vertex_count()),
+      history_at_(mesh.vertex_count(), none),
       rest_at_(mesh.vertex_count(), none),
       current_(mesh.vertex_count()) {
     for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
         const Quadric q = planes_at(VertexId(i));
-        history_[i] = current_[i] = {q.xx, q.xy, q.xz, q.yy, q.yz, q.zz};
+        current_[i] = {q.xx, q.xy, q.xz, q.yy, q.yz, q.zz};
     }
 }
 
 Quadric VertexWeights::history(VertexId v) const {
-    const Planes& planes = history_[v.index()];
+    const std::uint32_t own = history_at_[v.index()];
+    const Planes& planes = own == none ? current_[v.index()] : history_[own];
     Quadric q;
     q.xx = planes.xx, q.xy = planes.xy, q.xz = planes.xz, q.yy = planes.yy, q.yz = planes.yz, q.zz = planes.zz;
     if (const std::uint32_t at = rest_at_[v.index()]; at != none) q.b = rest_[at].b, q.c = rest_[at].c;
     return q;
 }
 
-void VertexWeights::set_history(VertexId v, const Quadric& merged) {
-    history_[v.index()] = {merged.xx, merged.xy, merged.xz, merged.yy, merged.yz, merged.zz};
-    std::uint32_t& at = rest_at_[v.index()];
-    if (at == none && !rest_free_.empty()) {
-        at = rest_free_.back();
-        rest_free_.pop_back();
-    } else if (at == none) {
-        at = static_cast<std::uint32_t>(rest_.size());
-        rest_.emplace_back();
+namespace {
+
+template <class Item>
+std::uint32_t take_room(std::deque<Item>& items, std::vector<std::uint32_t>& free) {
+    if (free.empty()) {
+        items.emplace_back();
+        return static_cast<std::uint32_t>(items.size() - 1);
     }
+    const std::uint32_t at = free.back();
+    free.pop_back();
+    return at;
+}
+
+}  // namespace
+
+VertexWeights::Planes& VertexWeights::own_history(VertexId v) {
+    std::uint32_t& at = history_at_[v.index()];
+    if (at == none) at = take_room(history_, history_free_);
+    return history_[at];
+}
+
+VertexWeights::Planes& VertexWeights::changing(VertexId v) {
+    Planes& current = current_[v.index()];
+    if (history_at_[v.index()] == none) own_history(v) = current;
+    return current;
+}
+
+void VertexWeights::set_history(VertexId v, const Quadric& merged) {
+    own_history(v) = {merged.xx, merged.xy, merged.xz, merged.yy, merged.yz, merged.zz};
+    std::uint32_t& at = rest_at_[v.index()];
+    if (at == none) at = take_room(rest_, rest_free_);
     rest_[at] = {merged.b, merged.c};
 }
 
 void VertexWeights::forget_history(VertexId v) {
-    if (rest_at_[v.index()] != none) rest_free_.push_back(rest_at_[v.index()]);
-    rest_at_[v.index()] = none;
+    const auto give_back = [v](std::vector<std::uint32_t>& at, std::vector<std::uint32_t>& free) {
+        if (at[v.index()] != none) free.push_back(at[v.index()]);
+        at[v.index()] = none;
+    };
+    give_back(history_at_, history_free_);
+    give_back(rest_at_, rest_free_);
 }
 
 Quadric VertexWeights::merged_history(const Star& star, const Vec3& w) const {
@@ -90,28 +116,28 @@ Quadric VertexWeights::merged_history(const Star& star, const Vec3& w) const {
 }
 
 void VertexWeights::renumber(const std::vector<VertexId>& ids) {
-    std::vector<Planes> history(mesh_.vertex_count());
+    std::vector<std::uint32_t> history_at(mesh_.vertex_count(), none);
     std::vector<std::uint32_t> rest_at(mesh_.vertex_count(), none);
     std::vector<Planes> current(mesh_.vertex_count());
     for (std::size_t v = 0; v < ids.size(); ++v) {
         if (!ids[v].valid()) continue;
-        history[ids[v].index()] = history_[v];
+        history_at[ids[v].index()] = history_at_[v];
         rest_at[ids[v].index()] = rest_at_[v];
         current[ids[v].index()] = current_[v];
     }
-    history_.swap(history);
+    history_at_.swap(history_at);
     rest_at_.swap(rest_at);
     current_.swap(current);
 }
 
 void VertexWeights::close_gaps(const std::vector<VertexId>& ids) {
-    move_down(history_, ids);
+    move_down(history_at_, ids);
     move_down(rest_at_, ids);
     move_down(current_, ids);
 }
 
 void VertexWeights::resize() {
-    history_.resize(mesh_.vertex_count());
+    history_at_.resize(mesh_.vertex_count(), none);
     rest_at_.resize(mesh_.vertex_count(), none);
     current_.resize(mesh_.vertex_count());
 }
@@ -119,7 +145,7 @@ void VertexWeights::resize() {
 void VertexWeights::refresh(VertexId v) {
     if (tuning_.paper) return;
     const Quadric q = planes_at(v);
-    current_[v.index()] = {q.xx, q.xy, q.xz, q.yy, q.yz, q.zz};
+    changing(v) = {q.xx, q.xy, q.xz, q.yy, q.yz, q.zz};
 }
 
 void VertexWeights::replace_star(const Star& star, const Vec3& w, VertexId left, VertexId right) {
@@ -131,10 +157,10 @@ void VertexWeights::replace_star(const Star& star, const Vec3& w, VertexId left,
     }
     constexpr double weight = 0.25;
     double largest2 = 0;
-    Planes& centre = current_[star.u.index()];
+    Planes& centre = changing(star.u);
     centre = {};
-    current_[left.index()].add(star.dying[0], -weight);
-    if (right.valid()) current_[right.index()].add(star.dying[1], -weight);
+    changing(left).add(star.dying[0], -weight);
+    if (right.valid()) changing(right).add(star.dying[1], -weight);
     for (std::size_t i = 0; i < star.ring.size(); ++i) {
         const Star::Corner& corner = star.ring[i];
         const Star::Corner& next = star.ring[star.after(i)];
@@ -143,8 +169,8 @@ void VertexWeights::replace_star(const Star& star, const Vec3& w, VertexId left,
         centre += change;
         change.add(corner.old_normal, -weight);
         largest2 = std::max(largest2, squared_norm(corner.old_normal));
-        current_[corner.vertex.index()] += change;
-        current_[next.vertex.index()] += change;
+        changing(corner.vertex) += change;
+        changing(next.vertex) += change;
     }
     for (const Star::Corner& corner : star.ring)
         if (mesh_.is_boundary(corner.vertex) || !(current_[corner.vertex.index()].trace() > cancelled * largest2))

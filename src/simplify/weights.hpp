@@ -25,7 +25,10 @@ public:
     /// Planes of the original faces that v stands for.
     [[nodiscard]] Quadric history(VertexId v) const;
     /// Asks memory for it ahead of its use.
-    void prefetch_history(VertexId v) const { __builtin_prefetch(history_.data() + v.index()); }
+    void prefetch_history(VertexId v) const {
+        const std::uint32_t at = history_at_[v.index()];
+        __builtin_prefetch(at == none ? &current_[v.index()] : &history_[at]);
+    }
 
     /// What the vertex that the edge of the star is merged into stands for, w (local) as its origin.
     [[nodiscard]] Quadric merged_history(const Star& star, const Vec3& w) const;
@@ -69,11 +72,16 @@ private:
     };
     static constexpr std::uint32_t none = ~std::uint32_t{0};
     [[nodiscard]] Quadric planes_at(VertexId v) const;
+    [[nodiscard]] Planes& own_history(VertexId v);
+    /// The faces at v are about to change, or have: what they were first is its history.
+    Planes& changing(VertexId v);
 
     const Mesh& mesh_;
     double scale_;
     const Tuning& tuning_;
-    std::vector<Planes> history_;
+    std::vector<std::uint32_t> history_at_;  ///< per vertex; none: the same as `current_`, as at first
+    std::deque<Planes> history_;
+    std::vector<std::uint32_t> history_free_;
     std::vector<std::uint32_t> rest_at_;  ///< per vertex: of its history
     std::deque<Rest> rest_;
     std::vector<std::uint32_t> rest_free_;
