@@ -65,7 +65,7 @@ Sweeper::Sweeper(Mesh& mesh, const Tuning& tuning, Precision precision, Numberin
       precision_(precision),
       numbering_(numbering),
       placer_(mesh, tuning_),
-      weights_(reordered(mesh, numbering, scale_), scale_, tuning_),
+      weights_(reordered(mesh, numbering, scale_), scale_, tuning_, VertexWeights::Kept::changed),
       vertices_(mesh.vertex_count()),
       key_(mesh.halfedge_count(), -1),
       waits_(mesh.halfedge_count()),
@@ -185,16 +185,10 @@ Sweeper::Drift Sweeper::find_drift(const Vec3& w) const {
 void Sweeper::keep_far(VertexId kept, VertexId gone, const Vec3& point) {
     std::uint32_t& at = far_at_[kept.index()];
     const std::uint32_t spare = far_at_[gone.index()];
-    if (at != none && spare != none) {
-        far_free_.push_back(spare);
-    } else if (at == none && spare != none) {
-        at = spare;
-    } else if (at == none && !far_free_.empty()) {
-        at = far_free_.back();
-        far_free_.pop_back();
-    } else if (at == none) {
-        at = static_cast<std::uint32_t>(far_.size());
-        far_.emplace_back();
+    if (at == none) {
+        at = spare != none ? spare : far_.take();
+    } else if (spare != none) {
+        far_.give_back(spare);
     }
     far_[at] = point;
 }
@@ -208,8 +202,9 @@ void Sweeper::accept(HalfedgeId h, const Vec3& w) {
     const Vec3 local = star_.frame.to_local(w);
     const Quadric merged = weights_.merged_history(star_, local);
     worst_error2_ = std::max(worst_error2_, mean_square(merged));
+    weights_.prepare(star_);
     collapse(mesh_, h, w);
-    weights_.forget_history(gone);
+    weights_.forget(gone);
     weights_.set_history(kept, merged);
     weights_.replace_star(star_, local, left, right);
     parent_[numbering_.name(gone).index()] = numbering_.name(kept);

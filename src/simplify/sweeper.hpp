@@ -6,13 +6,13 @@
 #include "delmesh/mesh/rounding.hpp"
 #include "simplify/numbering.hpp"
 #include "simplify/placement.hpp"
+#include "simplify/pool.hpp"
 #include "simplify/star.hpp"
 #include "simplify/tuning.hpp"
 #include "simplify/watchlists.hpp"
 #include "simplify/weights.hpp"
 
 #include <cstdint>
-#include <deque>
 #include <limits>
 #include <vector>
 
@@ -74,8 +74,7 @@ private:
     std::vector<HalfedgeId> woken_;
     std::vector<bool> merged_;           ///< per vertex: something was merged into it in this sweep
     std::vector<std::uint32_t> far_at_;  ///< per vertex: where its far point stands; none: nothing was merged into it
-    std::deque<Vec3> far_;               ///< of what was merged into a vertex, the farthest from the surface
-    std::vector<std::uint32_t> far_free_;
+    Pool<Vec3> far_;                     ///< of what was merged into a vertex, the farthest from the surface
     std::vector<VertexId> parent_;  ///< by name, the name of what it was merged into, or its own
     std::vector<float> some_keys_;
 };

@@ -10,6 +10,9 @@
 namespace delmesh {
 namespace {
 
+/// Planes that were computed lately: neighbours ask for them one after another. A power of two.
+constexpr std::size_t recent_count = 4096;
+
 /// Where so small a part is left of what was taken away, rounding may have eaten it.
 constexpr double cancelled = 1e-8;
 
@@ -44,69 +47,71 @@ double mean_square(const Quadric& planes) {
     return trace > 0 ? std::max(0.0, planes.c) / trace : 0;
 }
 
-VertexWeights::VertexWeights(const Mesh& mesh, double scale, const Tuning& tuning)
+VertexWeights::VertexWeights(const Mesh& mesh, double scale, const Tuning& tuning, Kept kept)
     : mesh_(mesh),
       scale_(scale),
       tuning_(tuning),
-      history_at_(mesh.vertex_count(), none),
-      rest_at_(mesh.vertex_count(), none),
-      current_(mesh.vertex_count()) {
-    for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
-        const Quadric q = planes_at(VertexId(i));
-        current_[i] = {q.xx, q.xy, q.xz, q.yy, q.yz, q.zz};
-    }
+      at_(mesh.vertex_count(), none),
+      rest_at_(mesh.vertex_count(), none) {
+    if (kept == Kept::changed)
+        recent_.resize(recent_count);
+    else
+        for (std::size_t v = 0; v < mesh.vertex_count(); ++v) keep(VertexId(v), computed(VertexId(v)));
+}
+
+VertexWeights::Planes VertexWeights::computed(VertexId v) const {
+    const Quadric q = planes_at(v);
+    return {q.xx, q.xy, q.xz, q.yy, q.yz, q.zz};
+}
+
+/// From now on the planes of v are kept.
+void VertexWeights::keep(VertexId v, const Planes& planes) {
+    const std::uint32_t at = at_[v.index()] = current_.take();
+    (void)history_.take();
+    current_[at] = history_[at] = planes;
+}
+
+const VertexWeights::Planes& VertexWeights::current(VertexId v) const {
+    if (const std::uint32_t at = at_[v.index()]; at != none) return current_[at];
+    Recent& recent = recent_[v.index() % recent_count];
+    if (recent.vertex != v) recent = {v, computed(v)};
+    return recent.planes;
+}
+
+void VertexWeights::prepare(const Star& star) {
+    const auto keep_one = [this](VertexId v) {
+        if (at_[v.index()] == none) keep(v, current(v));
+    };
+    keep_one(star.u);
+    for (const Star::Corner& corner : star.ring) keep_one(corner.vertex);
 }
 
 Quadric VertexWeights::history(VertexId v) const {
-    const std::uint32_t own = history_at_[v.index()];
-    const Planes& planes = own == none ? current_[v.index()] : history_[own];
+    const std::uint32_t at = at_[v.index()];
+    const Planes& planes = at == none ? current(v) : history_[at];
     Quadric q;
     q.xx = planes.xx, q.xy = planes.xy, q.xz = planes.xz, q.yy = planes.yy, q.yz = planes.yz, q.zz = planes.zz;
-    if (const std::uint32_t at = rest_at_[v.index()]; at != none) q.b = rest_[at].b, q.c = rest_[at].c;
+    if (const std::uint32_t more = rest_at_[v.index()]; more != none) q.b = rest_[more].b, q.c = rest_[more].c;
     return q;
 }
 
-namespace {
-
-template <class Item>
-std::uint32_t take_room(std::deque<Item>& items, std::vector<std::uint32_t>& free) {
-    if (free.empty()) {
-        items.emplace_back();
-        return static_cast<std::uint32_t>(items.size() - 1);
-    }
-    const std::uint32_t at = free.back();
-    free.pop_back();
-    return at;
-}
-
-}  // namespace
-
-VertexWeights::Planes& VertexWeights::own_history(VertexId v) {
-    std::uint32_t& at = history_at_[v.index()];
-    if (at == none) at = take_room(history_, history_free_);
-    return history_[at];
-}
-
-VertexWeights::Planes& VertexWeights::changing(VertexId v) {
-    Planes& current = current_[v.index()];
-    if (history_at_[v.index()] == none) own_history(v) = current;
-    return current;
-}
-
 void VertexWeights::set_history(VertexId v, const Quadric& merged) {
-    own_history(v) = {merged.xx, merged.xy, merged.xz, merged.yy, merged.yz, merged.zz};
+    history_[at_[v.index()]] = {merged.xx, merged.xy, merged.xz, merged.yy, merged.yz, merged.zz};
     std::uint32_t& at = rest_at_[v.index()];
-    if (at == none) at = take_room(rest_, rest_free_);
+    if (at == none) at = rest_.take();
     rest_[at] = {merged.b, merged.c};
 }
 
-void VertexWeights::forget_history(VertexId v) {
-    const auto give_back = [v](std::vector<std::uint32_t>& at, std::vector<std::uint32_t>& free) {
-        if (at[v.index()] != none) free.push_back(at[v.index()]);
-        at[v.index()] = none;
-    };
-    give_back(history_at_, history_free_);
-    give_back(rest_at_, rest_free_);
+void VertexWeights::forget(VertexId v) {
+    if (std::uint32_t& at = at_[v.index()]; at != none) {
+        current_.give_back(at);
+        history_.give_back(at);
+        at = none;
+    }
+    if (std::uint32_t& at = rest_at_[v.index()]; at != none) {
+        rest_.give_back(at);
+        at = none;
+    }
 }
 
 Quadric VertexWeights::merged_history(const Star& star, const Vec3& w) const {
@@ -116,36 +121,37 @@ Quadric VertexWeights::merged_history(const Star& star, const Vec3& w) const {
 }
 
 void VertexWeights::renumber(const std::vector<VertexId>& ids) {
-    std::vector<std::uint32_t> history_at(mesh_.vertex_count(), none);
+    std::vector<std::uint32_t> at(mesh_.vertex_count(), none);
     std::vector<std::uint32_t> rest_at(mesh_.vertex_count(), none);
-    std::vector<Planes> current(mesh_.vertex_count());
     for (std::size_t v = 0; v < ids.size(); ++v) {
-        if (!ids[v].valid()) continue;
-        history_at[ids[v].index()] = history_at_[v];
+        if (!ids[v].valid()) {
+            forget(VertexId(v));
+            continue;
+        }
+        at[ids[v].index()] = at_[v];
         rest_at[ids[v].index()] = rest_at_[v];
-        current[ids[v].index()] = current_[v];
     }
-    history_at_.swap(history_at);
+    at_.swap(at);
     rest_at_.swap(rest_at);
-    current_.swap(current);
 }
 
 void VertexWeights::close_gaps(const std::vector<VertexId>& ids) {
-    move_down(history_at_, ids);
+    for (Recent& recent : recent_)
+        if (recent.vertex.valid()) recent.vertex = VertexId();
+    move_down(at_, ids);
     move_down(rest_at_, ids);
-    move_down(current_, ids);
 }
 
 void VertexWeights::resize() {
-    history_at_.resize(mesh_.vertex_count(), none);
+    const std::size_t before = at_.size();
+    at_.resize(mesh_.vertex_count(), none);
     rest_at_.resize(mesh_.vertex_count(), none);
-    current_.resize(mesh_.vertex_count());
+    for (std::size_t v = before; v < at_.size(); ++v) keep(VertexId(v), {});
 }
 
 void VertexWeights::refresh(VertexId v) {
     if (tuning_.paper) return;
-    const Quadric q = planes_at(v);
-    changing(v) = {q.xx, q.xy, q.xz, q.yy, q.yz, q.zz};
+    kept_current(v) = computed(v);
 }
 
 void VertexWeights::replace_star(const Star& star, const Vec3& w, VertexId left, VertexId right) {
@@ -157,10 +163,10 @@ void VertexWeights::replace_star(const Star& star, const Vec3& w, VertexId left,
     }
     constexpr double weight = 0.25;
     double largest2 = 0;
-    Planes& centre = changing(star.u);
+    Planes& centre = kept_current(star.u);
     centre = {};
-    changing(left).add(star.dying[0], -weight);
-    if (right.valid()) changing(right).add(star.dying[1], -weight);
+    kept_current(left).add(star.dying[0], -weight);
+    if (right.valid()) kept_current(right).add(star.dying[1], -weight);
     for (std::size_t i = 0; i < star.ring.size(); ++i) {
         const Star::Corner& corner = star.ring[i];
         const Star::Corner& next = star.ring[star.after(i)];
@@ -169,11 +175,11 @@ void VertexWeights::replace_star(const Star& star, const Vec3& w, VertexId left,
         centre += change;
         change.add(corner.old_normal, -weight);
         largest2 = std::max(largest2, squared_norm(corner.old_normal));
-        changing(corner.vertex) += change;
-        changing(next.vertex) += change;
+        kept_current(corner.vertex) += change;
+        kept_current(next.vertex) += change;
     }
     for (const Star::Corner& corner : star.ring)
-        if (mesh_.is_boundary(corner.vertex) || !(current_[corner.vertex.index()].trace() > cancelled * largest2))
+        if (mesh_.is_boundary(corner.vertex) || !(kept_current(corner.vertex).trace() > cancelled * largest2))
             refresh(corner.vertex);
 }
 
@@ -183,8 +189,8 @@ Quadric VertexWeights::of_edge(VertexId u, VertexId v, const Vec3& to_v) const {
         q += history(u);
         return q;
     }
-    const Planes& at_u = current_[u.index()];
-    const Planes& at_v = current_[v.index()];
+    const Planes at_u = current(u);  // a copy: the next call may take its place
+    const Planes& at_v = current(v);
     Quadric q;
     q.xx = at_v.xx, q.xy = at_v.xy, q.xz = at_v.xz, q.yy = at_v.yy, q.yz = at_v.yz, q.zz = at_v.zz;
     q.b = -q.apply(to_v);

@@ -3,11 +3,11 @@
 
 #include "delmesh/mesh/mesh.hpp"
 #include "delmesh/simplify/quadric.hpp"
+#include "simplify/pool.hpp"
 #include "simplify/star.hpp"
 #include "simplify/tuning.hpp"
 
 #include <cstdint>
-#include <deque>
 #include <vector>
 
 namespace delmesh {
@@ -18,7 +18,15 @@ namespace delmesh {
 /// All quadrics are local: the origin is the vertex's own place, the unit 1/scale of the mesh's.
 class VertexWeights {
 public:
-    VertexWeights(const Mesh& mesh, double scale, const Tuning& tuning);
+    /// Which of them are kept; the others are computed when they are asked for.
+    enum class Kept {
+        all,
+        changed,  ///< of vertices around which something has changed: `prepare` must be told before it does
+    };
+    VertexWeights(const Mesh& mesh, double scale, const Tuning& tuning, Kept kept = Kept::all);
+
+    /// The edge of the star is about to be collapsed.
+    void prepare(const Star& star);
 
     /// The planes to judge an edge by: those at its ends, with the place of u as the origin; `to_v` is that of v.
     [[nodiscard]] Quadric of_edge(VertexId u, VertexId v, const Vec3& to_v) const;
@@ -26,8 +34,7 @@ public:
     [[nodiscard]] Quadric history(VertexId v) const;
     /// Asks memory for it ahead of its use.
     void prefetch_history(VertexId v) const {
-        const std::uint32_t at = history_at_[v.index()];
-        __builtin_prefetch(at == none ? &current_[v.index()] : &history_[at]);
+        if (at_[v.index()] != none) __builtin_prefetch(&history_[at_[v.index()]]);
     }
 
     /// What the vertex that the edge of the star is merged into stands for, w (local) as its origin.
@@ -35,8 +42,8 @@ public:
 
     /// v stands for the planes of `merged` from now on.
     void set_history(VertexId v, const Quadric& merged);
-    /// v is going to be gone: its room goes to others.
-    void forget_history(VertexId v);
+    /// v is gone: its room goes to others.
+    void forget(VertexId v);
     /// To be called when the faces at v have changed.
     void refresh(VertexId v);
     /// The number of vertices has changed; new ones stand for nothing yet.
@@ -72,20 +79,24 @@ private:
     };
     static constexpr std::uint32_t none = ~std::uint32_t{0};
     [[nodiscard]] Quadric planes_at(VertexId v) const;
-    [[nodiscard]] Planes& own_history(VertexId v);
-    /// The faces at v are about to change, or have: what they were first is its history.
-    Planes& changing(VertexId v);
+    [[nodiscard]] Planes computed(VertexId v) const;
+    [[nodiscard]] const Planes& current(VertexId v) const;
+    [[nodiscard]] Planes& kept_current(VertexId v) { return current_[at_[v.index()]]; }
+    void keep(VertexId v, const Planes& planes);
 
     const Mesh& mesh_;
     double scale_;
     const Tuning& tuning_;
-    std::vector<std::uint32_t> history_at_;  ///< per vertex; none: the same as `current_`, as at first
-    std::deque<Planes> history_;
-    std::vector<std::uint32_t> history_free_;
+    std::vector<std::uint32_t> at_;  ///< per vertex: of its planes; none: they are computed
+    Pool<Planes> current_;
+    Pool<Planes> history_;                ///< numbered as `current_`
     std::vector<std::uint32_t> rest_at_;  ///< per vertex: of its history
-    std::deque<Rest> rest_;
-    std::vector<std::uint32_t> rest_free_;
-    std::vector<Planes> current_;
+    Pool<Rest> rest_;
+    struct Recent {
+        VertexId vertex;
+        Planes planes;
+    };
+    mutable std::vector<Recent> recent_;  ///< what was computed lately
 };
 
 }  // namespace delmesh
