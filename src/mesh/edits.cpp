@@ -218,37 +218,49 @@ void remove_isolated(Mesh& mesh, VertexId v) {
     MeshEditor(mesh).points[v.index()].x = std::numeric_limits<double>::quiet_NaN();
 }
 
-CompactMap compact(Mesh& mesh) {
-    CompactMap map;
+std::vector<VertexId> compact_vertices(Mesh& mesh) {
     MeshEditor edit(mesh);
-    map.vertex.resize(mesh.vertex_count());
-    map.face.resize(mesh.face_count());
-    std::size_t vertices = 0;
-    for (std::size_t v = 0; v < mesh.vertex_count(); ++v)
-        if (mesh.is_live(VertexId(v))) map.vertex[v] = VertexId(vertices++);
-    std::size_t faces = 0;
-    for (std::size_t f = 0; f < mesh.face_count(); ++f)
-        if (mesh.is_live(FaceId(f))) map.face[f] = FaceId(faces++);
+    std::vector<VertexId> map(mesh.vertex_count());
+    std::size_t count = 0;
+    for (std::size_t v = 0; v < map.size(); ++v) {
+        if (!mesh.is_live(VertexId(v))) continue;
+        edit.out[count] = edit.out[v];
+        edit.points[count] = edit.points[v];
+        map[v] = VertexId(count++);
+    }
+    for (VertexId& v : edit.origin)
+        if (v.valid()) v = map[v.index()];
+    edit.out.resize(count);
+    edit.points.resize(count);
+    return map;
+}
 
+std::vector<FaceId> compact_faces(Mesh& mesh) {
+    MeshEditor edit(mesh);
+    std::vector<FaceId> map(mesh.face_count());
+    std::size_t count = 0;
+    for (std::size_t f = 0; f < map.size(); ++f)
+        if (mesh.is_live(FaceId(f))) map[f] = FaceId(count++);
     const auto moved = [&map](HalfedgeId h) {
         if (!h.valid()) return h;
-        return HalfedgeId(map.face[Mesh::face(h).index()].value() * 3 + h.value() % 3);
+        return HalfedgeId(map[Mesh::face(h).index()].value() * 3 + h.value() % 3);
     };
     for (std::size_t h = 0; h < mesh.halfedge_count(); ++h) {
         if (!edit.origin[h].valid()) continue;
         const std::size_t to = moved(HalfedgeId(h)).index();
-        edit.origin[to] = map.vertex[edit.origin[h].index()];
+        edit.origin[to] = edit.origin[h];
         edit.twin[to] = moved(edit.twin[h]);
     }
-    for (std::size_t v = 0; v < map.vertex.size(); ++v) {
-        if (!map.vertex[v].valid()) continue;
-        edit.out[map.vertex[v].index()] = moved(edit.out[v]);
-        edit.points[map.vertex[v].index()] = edit.points[v];
-    }
-    edit.origin.resize(3 * faces);
-    edit.twin.resize(3 * faces);
-    edit.out.resize(vertices);
-    edit.points.resize(vertices);
+    for (HalfedgeId& out : edit.out) out = moved(out);
+    edit.origin.resize(3 * count);
+    edit.twin.resize(3 * count);
+    return map;
+}
+
+CompactMap compact(Mesh& mesh) {
+    CompactMap map;
+    map.vertex = compact_vertices(mesh);
+    map.face = compact_faces(mesh);
     return map;
 }
 
@@ -286,10 +298,10 @@ void renumber(Mesh& mesh, const CompactMap& map) {
 
 void shrink(Mesh& mesh) {
     MeshEditor edit(mesh);
-    edit.origin.shrink_to_fit();
-    edit.twin.shrink_to_fit();
     edit.out.shrink_to_fit();
     edit.points.shrink_to_fit();
+    edit.origin.shrink_to_fit();
+    edit.twin.shrink_to_fit();
 }
 
 void reserve(Mesh& mesh, std::size_t vertices, std::size_t faces) {

@@ -79,10 +79,22 @@ void Numbering::renumber(Mesh& mesh, const CompactMap& map) {
 }
 
 CompactMap Numbering::close_gaps(Mesh& mesh) {
-    CompactMap map = compact(mesh);
+    CompactMap map;
+    map.vertex = close_vertex_gaps(mesh);
+    map.face = close_face_gaps(mesh);
     shrink(mesh);
-    move_down(vertex_, map.vertex);
-    move_down(face_, map.face);
+    return map;
+}
+
+std::vector<VertexId> Numbering::close_vertex_gaps(Mesh& mesh) {
+    std::vector<VertexId> map = compact_vertices(mesh);
+    move_down(vertex_, map);
+    return map;
+}
+
+std::vector<FaceId> Numbering::close_face_gaps(Mesh& mesh) {
+    std::vector<FaceId> map = compact_faces(mesh);
+    move_down(face_, map);
     return map;
 }
 

@@ -32,6 +32,9 @@ public:
 
     /// Closes the gaps between the ids, in place: the map keeps the order. Remembers.
     CompactMap close_gaps(Mesh& mesh);
+    /// The two halves of that, in this order; they leave it to the caller to `shrink` the mesh.
+    std::vector<VertexId> close_vertex_gaps(Mesh& mesh);
+    std::vector<FaceId> close_face_gaps(Mesh& mesh);
     /// Renumbers the mesh, and remembers.
     void renumber(Mesh& mesh, const CompactMap& map);
     /// Ids from 0 on for what lives, in the order of the names.

@@ -217,18 +217,26 @@ void Sweeper::accept(HalfedgeId h, const Vec3& w) {
     each_outgoing(mesh_, kept, [&](HalfedgeId at) { key_[at.index()] = key_[Mesh::prev(at).index()] = -1; });
 }
 
-/// Closes the gaps between the ids.
+void Sweeper::close_vertex_gaps() {
+    const std::vector<VertexId> map = numbering_.close_vertex_gaps(mesh_);
+    watches_.close_gaps(map);
+    weights_.close_gaps(map);
+    move_down(far_at_, map);
+    shrink(mesh_);
+}
+
+/// Closes the gaps between the ids, step by step: what one gives back makes room for the next.
 void Sweeper::tidy() {
-    const CompactMap map = numbering_.close_gaps(mesh_);
-    weights_.close_gaps(map.vertex);
-    watches_.close_gaps(map.vertex, [&map](HalfedgeId& h) {
-        const FaceId face = map.face[Mesh::face(h).index()];
-        h = HalfedgeId(face.value() * 3 + h.value() % 3);
+    close_vertex_gaps();
+    const std::vector<FaceId> faces = numbering_.close_face_gaps(mesh_);
+    watches_.renumber_items([&faces](HalfedgeId& h) {
+        const FaceId face = faces[Mesh::face(h).index()];
+        if (face.valid()) h = HalfedgeId(face.value() * 3 + h.value() % 3);
         return face.valid();
     });
-    move_sides_down(key_, map.face);
-    move_sides_down(waits_, map.face);
-    move_down(far_at_, map.vertex);
+    move_sides_down(waits_, faces);
+    move_sides_down(key_, faces);
+    shrink(mesh_);
 }
 
 double Sweeper::worst_error() const {

@@ -53,6 +53,7 @@ private:
     [[nodiscard]] Drift find_drift(const Vec3& w) const;
     void accept(HalfedgeId h, const Vec3& w);
     void keep_far(VertexId kept, VertexId gone, const Vec3& point);
+    void close_vertex_gaps();
     void tidy();
 
     Mesh& mesh_;

@@ -2,6 +2,7 @@
 // For each vertex, a list of what waits for it to change.
 
 #include "delmesh/base/ids.hpp"
+#include "simplify/numbering.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -38,14 +39,16 @@ public:
             node = next;
         }
     }
-    /// The vertices have got other ids, in the same order; `moved` gives the items theirs, and tells whether they stay.
+    /// The vertices have got other ids, in the same order. Nothing waits for those that are gone.
+    void close_gaps(const std::vector<VertexId>& ids) { move_down(first_, ids); }
+    /// `moved` gives each item its new name, and tells whether it stays.
     template <class Moved>
-    void close_gaps(const std::vector<VertexId>& ids, Moved&& moved) {
-        for (std::size_t v = 0; v < ids.size(); ++v) {
-            std::uint32_t* link = &first_[v];
+    void renumber_items(Moved&& moved) {
+        for (std::uint32_t& first : first_) {
+            std::uint32_t* link = &first;
             while (*link != none) {
                 const std::uint32_t node = *link;
-                if (ids[v].valid() && moved(nodes_[node].item)) {
+                if (moved(nodes_[node].item)) {
                     link = &nodes_[node].next;
                     continue;
                 }
@@ -53,11 +56,7 @@ public:
                 nodes_[node].next = free_;
                 free_ = node;
             }
-            if (ids[v].valid()) first_[ids[v].index()] = first_[v];
         }
-        first_.resize(static_cast<std::size_t>(
-            std::count_if(ids.begin(), ids.end(), [](const VertexId id) { return id.valid(); })));
-        first_.shrink_to_fit();
     }
     /// Empties all lists.
     void clear() {

@@ -61,6 +61,10 @@ struct CompactMap {
 /// Removes dead elements; the order of the living ones is kept. Cost: O(size).
 CompactMap compact(Mesh& mesh);
 
+/// The two halves of that, in this order: each needs less room, and the first frees some for the second.
+std::vector<VertexId> compact_vertices(Mesh& mesh);
+std::vector<FaceId> compact_faces(Mesh& mesh);
+
 /// Gives the living elements the ids that the map says, which are those from 0 on without gaps, and removes dead ones.
 /// Each face keeps its first corner. Cost: O(size).
 void renumber(Mesh& mesh, const CompactMap& map);
