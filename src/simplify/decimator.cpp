@@ -40,9 +40,7 @@ Decimator::Decimator(Mesh& mesh, const Tuning& tuning, const DecimatorLimits& li
       vertices_(count_used(mesh)),
       blocked_(mesh.halfedge_count()),
       stamp_(mesh.halfedge_count()),
-      watches_(mesh.vertex_count()) {
-    enqueue_all();
-}
+      watches_(mesh.vertex_count()) {}
 
 void Decimator::enqueue_all() {
     is_outdated_ = false;
@@ -58,11 +56,13 @@ void Decimator::enqueue_all() {
     queue_.heapify();
 }
 
-void Decimator::continue_from(const Sweeper& sweeper) {
+void Decimator::continue_from(std::unique_ptr<Sweeper> sweeper) {
     for (std::size_t v = 0; v < mesh_.vertex_count(); ++v)
-        weights_.set_history(VertexId(v), sweeper.weights().history(VertexId(v)));
-    worst_error_ = sweeper.worst_error();
-    samples_->reattach(mesh_, scale_, sweeper.merged_into());
+        weights_.set_history(VertexId(v), sweeper->weights().history(VertexId(v)));
+    worst_error_ = sweeper->worst_error();
+    const std::vector<VertexId> now = sweeper->merged_into();
+    sweeper.reset();  // the samples need its room
+    samples_->reattach(mesh_, scale_, now);
 }
 
 /// v is about to move.

@@ -17,6 +17,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -46,7 +47,7 @@ public:
     /// From now on these are followed.
     void follow_samples(SurfaceSamples samples) { samples_ = std::move(samples); }
     /// The sweeper has gone the first part of the way. Requires `follow_samples`, with those from before.
-    void continue_from(const Sweeper& sweeper);
+    void continue_from(std::unique_ptr<Sweeper> sweeper);
     /// On the last part of the way to so many vertices, collapses must not leave a sample far from the surface, nor the
     /// surface far from the samples: such edges wait until the mean error has grown or nothing else is left.
     void guard_for(std::size_t vertices);
@@ -130,7 +131,7 @@ private:
     std::vector<Watch> woken_;
     std::vector<Parked> parked_;  ///< a heap, the smallest distance first
     Queue queue_;
-    bool is_outdated_ = false;  ///< the queue
+    bool is_outdated_ = true;  ///< the queue
     std::optional<SurfaceSamples> samples_;
     std::size_t guarded_ = 0;
     std::size_t retried_ = 0;  ///< collapses made when all edges had another turn

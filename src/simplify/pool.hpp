@@ -1,9 +1,12 @@
 #pragma once
 // Room for items that come and go, named by numbers.
 
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <memory>
+#include <new>
 #include <type_traits>
 #include <vector>
 
@@ -12,7 +15,8 @@ namespace delmesh {
 /// Grows without a copy, and keeps no list of what is free beside it.
 template <class Item>
 class Pool {
-    static_assert(std::is_trivially_copyable_v<Item> && sizeof(Item) >= sizeof(std::uint32_t));
+    static_assert(std::is_trivially_copyable_v<Item> && sizeof(Item) >= sizeof(std::uint32_t) &&
+                  alignof(Item) <= __STDCPP_DEFAULT_NEW_ALIGNMENT__);
 
 public:
     [[nodiscard]] Item& operator[](std::uint32_t at) { return blocks_[at / block_size][at % block_size]; }
@@ -21,12 +25,13 @@ public:
     /// Room for one more: what was given back last, if there is any, so that equal calls give equal numbers.
     std::uint32_t take() {
         if (free_ == none) {
-            if (size_ % block_size == 0) blocks_.push_back(std::make_unique<Item[]>(block_size));
+            if (size_ % block_size == 0) add_block();
+            ::new (&(*this)[size_]) Item();
             return size_++;
         }
         const std::uint32_t at = free_;
         std::memcpy(&free_, &(*this)[at], sizeof free_);
-        (*this)[at] = Item();
+        ::new (&(*this)[at]) Item();
         return at;
     }
     void give_back(std::uint32_t at) {
@@ -36,9 +41,15 @@ public:
 
 private:
     static constexpr std::uint32_t none = ~std::uint32_t{0};
-    static constexpr std::uint32_t block_size = 512;
+    /// So large a block goes back to the system when it is freed, and takes no memory before it is used.
+    static constexpr std::uint32_t block_size = std::bit_floor((std::uint32_t{1} << 19) / sizeof(Item));
 
-    std::vector<std::unique_ptr<Item[]>> blocks_;
+    void add_block() { blocks_.emplace_back(static_cast<Item*>(::operator new(block_size * sizeof(Item)))); }
+    struct Free {
+        void operator()(Item* block) const { ::operator delete(block); }
+    };
+
+    std::vector<std::unique_ptr<Item[], Free>> blocks_;
     std::uint32_t size_ = 0;
     std::uint32_t free_ = none;
 };

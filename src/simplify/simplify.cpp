@@ -296,10 +296,9 @@ SimplifyReport run(Mesh& mesh, const SimplifyOptions& options, ProgressiveMesh* 
                         record != nullptr ? &recorder : nullptr);
     if (samples) decimator.follow_samples(std::move(*samples));
     if (sweeper) {
-        decimator.continue_from(*sweeper);
         report.collapses = sweeper->collapses();
+        decimator.continue_from(std::move(sweeper));
         report.moves = decimator.refit({.rounds = 1}, context);
-        sweeper.reset();
     }
     const Way way{.records = record != nullptr,
                   .shakes = shakes && record == nullptr,
