@@ -1,5 +1,7 @@
 #include "repair/complex.hpp"
 
+#include "base/let_go.hpp"
+
 #include <algorithm>
 
 namespace delmesh::repairing {
@@ -28,7 +30,9 @@ std::vector<Item> bucket_by_edge(const Complex& complex, std::vector<Index>& beg
 
 }  // namespace
 
-EdgeGroups::EdgeGroups(const Complex& complex) {
+void EdgeGroups::regroup(const Complex& complex) {
+    let_go(halfedges_);
+    let_go(starts_);
     std::vector<Index> begin;
     const std::vector<Item> items = bucket_by_edge(complex, begin);
     halfedges_.reserve(items.size());

@@ -72,7 +72,9 @@ struct Complex {
 /// The half-edges of a complex, grouped by the places that their edges join; in each group in ascending order.
 class EdgeGroups {
 public:
-    explicit EdgeGroups(const Complex& complex);
+    explicit EdgeGroups(const Complex& complex) { regroup(complex); }
+    /// Afresh, without room for both.
+    void regroup(const Complex& complex);
 
     [[nodiscard]] std::size_t size() const { return starts_.size() - 1; }
     [[nodiscard]] std::span<const Index> operator[](std::size_t g) const {

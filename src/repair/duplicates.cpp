@@ -33,7 +33,7 @@ public:
         for (std::size_t f = 0; f < gone_.size(); ++f)
             if (gone_[f] != 0) log_.add(Defect::duplicate_face, complex_.origin[f]);
         complex_.drop_faces([&](std::size_t f) { return gone_[f] != 0; });
-        groups_ = EdgeGroups(complex_);
+        groups_.regroup(complex_);
         return result;
     }
 

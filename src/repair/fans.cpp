@@ -16,8 +16,7 @@ public:
         : complex_(complex),
           groups_(groups),
           partners_(partners),
-          log_(log),
-          fan_(complex.halfedge_count()) {}
+          log_(log) {}
 
     void run() {
         name_fans();
@@ -29,15 +28,15 @@ public:
 private:
     /// `fan_` of a corner: a number that the corners of its fan share.
     void name_fans() {
-        UnionFind sets(fan_.size());
-        for (Index h = 0; h < fan_.size(); ++h) {
+        UnionFind sets(complex_.halfedge_count());
+        for (Index h = 0; h < partners_.size(); ++h) {
             const Index g = partners_[h];
             if (g == none || g < h) continue;
             sets.unite(h, Complex::next(g));
             sets.unite(Complex::next(h), g);
         }
-        for (Index h = 0; h < fan_.size(); ++h) fan_[h] = sets.find(h);
-        next_fan_ = static_cast<Index>(fan_.size());
+        fan_ = sets.number_sets();
+        for (const Index fan : fan_) next_fan_ = std::max(next_fan_, fan + 1);
     }
 
     /// An edge of the mesh to be, at a place where there are several: one or two half-edges.

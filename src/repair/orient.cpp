@@ -111,7 +111,7 @@ private:
             }
             for (Index h = 3 * f; h < 3 * f + 3; ++h) partners_[h] = moved(partners_[h]);
         }
-        groups_ = EdgeGroups(complex_);
+        groups_.regroup(complex_);
     }
 
     /// Parts partners that run in the same direction. Where that leaves half-edges of both directions alone at one

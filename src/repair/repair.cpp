@@ -47,10 +47,10 @@ public:
         write_soup();
     }
 
-    /// True if nothing was changed, `sifted` being the corners of the input's triangles.
-    [[nodiscard]] bool is_input(const std::vector<Index>& sifted) const {
+    /// True if nothing was changed, `triangles` being the corners of the input's triangles.
+    [[nodiscard]] bool is_input(const std::vector<Index>& triangles) const {
         const std::size_t n = input_.points.size();
-        return soup.points.size() == n && complex_.points.size() == n && soup.corners == sifted &&
+        return soup.points.size() == n && complex_.points.size() == n && soup.corners == triangles &&
                soup.lines == input_.lines && std::equal(soup.points.begin(), soup.points.end(), input_.points.begin());
     }
 
@@ -85,6 +85,11 @@ private:
 
     void write_soup() {
         soup.stored = input_.stored;
+        const auto kept = static_cast<std::size_t>(
+            std::count_if(number_.begin(), number_.end(), [](const Index n) { return n != none; }));
+        soup.points.reserve(kept);
+        vertex_origin.reserve(kept);
+        face_origin.reserve(complex_.face_count());
         for (std::size_t v = 0; v < number_.size(); ++v) {
             if (number_[v] == none) continue;
             soup.points.push_back(complex_.points[v]);
@@ -122,7 +127,8 @@ RepairReport run(const PolygonSoup& soup, const RepairOptions& options, const Co
     report_progress(context, "repair", 0);
     Complex complex = sift(soup, log);
     const bool all_passed = log.findings().empty();
-    const std::vector<Index> sifted = complex.corners;
+    // Where nothing has been left out of triangles, they are the input's own.
+    const std::vector<Index> cut = all_passed && !soup.is_triangles() ? complex.corners : std::vector<Index>();
     check_cancelled(context);
     weld(complex, options.weld_tolerance_rel, log);
     check_cancelled(context);
@@ -133,7 +139,7 @@ RepairReport run(const PolygonSoup& soup, const RepairOptions& options, const Co
     Outcome outcome(soup, complex, log);
 
     RepairReport report;
-    report.changed = !all_passed || !outcome.is_input(sifted);
+    report.changed = !all_passed || !outcome.is_input(soup.is_triangles() ? soup.corners : cut);
     if (report.changed) {
         report.findings = log.findings();
         report.vertex_origin = std::move(outcome.vertex_origin);
