@@ -30,8 +30,7 @@ public:
     std::vector<std::uint32_t> number_sets() {
         std::uint32_t count = 0;
         // In place: a parent is never larger, so it has been numbered.
-        for (std::uint32_t i = 0; i < parent_.size(); ++i)
-            parent_[i] = parent_[i] == i ? count++ : parent_[parent_[i]];
+        for (std::uint32_t i = 0; i < parent_.size(); ++i) parent_[i] = parent_[i] == i ? count++ : parent_[parent_[i]];
         return std::move(parent_);
     }
 

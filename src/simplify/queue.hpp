@@ -20,8 +20,10 @@ public:
         }
     };
 
+    /// For edges that are named by half-edges, as many as there are.
     void reset(std::size_t edges) {
         heap_.clear();
+        heap_.reserve(edges / 2);  // most edges have two half-edges
         place_.assign(edges, nowhere);
     }
     [[nodiscard]] bool empty() const { return heap_.empty(); }

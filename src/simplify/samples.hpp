@@ -116,7 +116,7 @@ private:
 
     double sum_ = 0;
     double weight_ = 0;
-    double stride_ = 1;  ///< one of so many is followed
+    double stride_ = 1;                   ///< one of so many is followed
     std::optional<SampleSource> source_;  ///< what is to be attached
     std::vector<Sample> samples_;
     std::vector<std::uint32_t> first_;  ///< per face

@@ -262,6 +262,43 @@ void reach(Decimator& decimator, std::size_t target, const Way& way, const Tunin
     report.moves += decimator.refit(tuning_at_level(target), context);
 }
 
+/// A decimator for a mesh that is Delaunay, which has gone the first part of the way.
+void begin(Decimator& decimator, std::optional<SurfaceSamples> samples, std::unique_ptr<Sweeper> sweeper,
+           SimplifyReport& report, const Context* context) {
+    if (samples) decimator.follow_samples(std::move(*samples));
+    if (!sweeper) return;
+    report.collapses = sweeper->collapses();
+    decimator.continue_from(std::move(sweeper));
+    report.moves = decimator.refit({.rounds = 1}, context);
+}
+
+/// From level to level; `limits.error` is absolute. Nothing of what that takes is left at the end.
+void go_down(Mesh& mesh, const std::vector<std::size_t>& targets, const Tuning& tuning, const SimplifyOptions& options,
+             const Way& way, const DecimatorLimits& limits, Recorder* recorder, Numbering& numbering,
+             SimplifyReport& report, const Context* context) {
+    // All steps of a progressive mesh are levels, so they are made with all care.
+    const bool sweeps = way.polishes && mesh.vertex_count() > sweep_until(targets.front(), tuning);
+    std::optional<SurfaceSamples> samples;
+    if (way.refits) {
+        const std::size_t count = std::min(report.input_vertices, mesh.vertex_count());
+        const std::size_t most = samples_for(targets.front());
+        samples = sweeps ? SurfaceSamples(SampleSource(mesh, count, local_scale(mesh), most))
+                         : SurfaceSamples(mesh, count, local_scale(mesh), most);
+    }
+    std::unique_ptr<Sweeper> sweeper;
+    if (sweeps) sweeper = sweep_first(mesh, tuning, options, targets.front(), numbering, context);
+    Decimator decimator(mesh, tuning, limits, recorder);
+    begin(decimator, std::move(samples), std::move(sweeper), report, context);
+    for (const std::size_t target : targets) {
+        reach(decimator, target, way, tuning, numbering, report, context);
+        report.stop = report.levels.back().stop;
+        const bool last = target == targets.back() || report.stop == SimplifyStop::cancelled;
+        if (last) break;
+        if (options.on_level) options.on_level(without_dead(mesh, numbering), report.levels.back());
+    }
+    report.collapses += decimator.counts().collapses;
+}
+
 SimplifyReport run(Mesh& mesh, const SimplifyOptions& options, ProgressiveMesh* record, const Context* context) {
     check_options(options);
     Recorder recorder;
@@ -280,38 +317,12 @@ SimplifyReport run(Mesh& mesh, const SimplifyOptions& options, ProgressiveMesh* 
     report.least_vertices = least_vertices(mesh);
     const bool refit = options.refit && shakes && !has_hub(mesh);
     Numbering numbering(mesh);
-    // All steps of a progressive mesh are levels, so they are made with all care.
-    const bool sweeps =
-        refit && record == nullptr && mesh.vertex_count() > sweep_until(targets.front(), tuning);
-    std::optional<SurfaceSamples> samples;
-    if (refit) {
-        const std::size_t count = std::min(report.input_vertices, mesh.vertex_count());
-        const std::size_t most = samples_for(targets.front());
-        samples = sweeps ? SurfaceSamples(SampleSource(mesh, count, local_scale(mesh), most))
-                         : SurfaceSamples(mesh, count, local_scale(mesh), most);
-    }
-    std::unique_ptr<Sweeper> sweeper;
-    if (sweeps) sweeper = sweep_first(mesh, tuning, options, targets.front(), numbering, context);
-    Decimator decimator(mesh, tuning, {options.max_quadric_error_rel * diagonal, options.remesh.precision},
-                        record != nullptr ? &recorder : nullptr);
-    if (samples) decimator.follow_samples(std::move(*samples));
-    if (sweeper) {
-        report.collapses = sweeper->collapses();
-        decimator.continue_from(std::move(sweeper));
-        report.moves = decimator.refit({.rounds = 1}, context);
-    }
     const Way way{.records = record != nullptr,
                   .shakes = shakes && record == nullptr,
                   .refits = refit,
                   .polishes = refit && record == nullptr};
-    for (const std::size_t target : targets) {
-        reach(decimator, target, way, tuning, numbering, report, context);
-        report.stop = report.levels.back().stop;
-        const bool last = target == targets.back() || report.stop == SimplifyStop::cancelled;
-        if (last) break;
-        if (options.on_level) options.on_level(without_dead(mesh, numbering), report.levels.back());
-    }
-    report.collapses += decimator.counts().collapses;
+    go_down(mesh, targets, tuning, options, way, {options.max_quadric_error_rel * diagonal, options.remesh.precision},
+            record != nullptr ? &recorder : nullptr, numbering, report, context);
     drop_isolated(mesh);
     CompactMap map = numbering.in_order_of_names(mesh);
     numbering.renumber(mesh, map);

@@ -69,14 +69,14 @@ private:
     double worst_error2_ = 0;
     double drift_limit2_ = std::numeric_limits<double>::infinity();  ///< squared, local unit
     double drift_sum_ = 0;
-    std::vector<float> key_;             ///< per half-edge that names an edge: its cost; negative: not known
-    std::vector<bool> waits_;            ///< per half-edge: it was blocked, and nothing has changed at what blocked it
-    Watchlists<HalfedgeId> watches_;     ///< who waits for a vertex to change
+    std::vector<float> key_;          ///< per half-edge that names an edge: its cost; negative: not known
+    std::vector<bool> waits_;         ///< per half-edge: it was blocked, and nothing has changed at what blocked it
+    Watchlists<HalfedgeId> watches_;  ///< who waits for a vertex to change
     std::vector<HalfedgeId> woken_;
     std::vector<bool> merged_;           ///< per vertex: something was merged into it in this sweep
     std::vector<std::uint32_t> far_at_;  ///< per vertex: where its far point stands; none: nothing was merged into it
     Pool<Vec3> far_;                     ///< of what was merged into a vertex, the farthest from the surface
-    std::vector<VertexId> parent_;  ///< by name, the name of what it was merged into, or its own
+    std::vector<VertexId> parent_;       ///< by name, the name of what it was merged into, or its own
     std::vector<float> some_keys_;
 };
 
