@@ -37,16 +37,15 @@ Decimator::Decimator(Mesh& mesh, const Tuning& tuning, const DecimatorLimits& li
       scale_(local_scale(mesh)),
       placer_(mesh, tuning_),
       weights_(mesh, scale_, tuning_),
-      vertices_(count_used(mesh)),
-      blocked_(mesh.halfedge_count()),
-      stamp_(mesh.halfedge_count()),
-      watches_(mesh.vertex_count()) {}
+      vertices_(count_used(mesh)) {}
 
 void Decimator::enqueue_all() {
     is_outdated_ = false;
     queue_.reset(mesh_.halfedge_count());
     parked_.clear();
-    watches_.clear();
+    blocked_.resize(mesh_.halfedge_count());
+    stamp_.resize(mesh_.halfedge_count());
+    watches_.reset(mesh_.vertex_count());
     raised2_ = 0;
     for (std::size_t i = 0; i < mesh_.halfedge_count(); ++i) {
         const HalfedgeId h(i);
@@ -86,7 +85,7 @@ void Decimator::start_afresh() {
 void Decimator::leave_queue() {
     is_outdated_ = true;
     raised2_ = 0;
-    blocked_.assign(mesh_.halfedge_count(), Blocker::none);
+    std::fill(blocked_.begin(), blocked_.end(), Blocker::none);
 }
 
 std::size_t Decimator::refit(const RefitTuning& tuning, const Context* context) {
@@ -110,8 +109,6 @@ void Decimator::close_gaps(Numbering& numbering) {
 void Decimator::follow(const CompactMap& map) {
     weights_.renumber(map.vertex);
     if (samples_) samples_->renumber(map.face, mesh_.face_count());
-    stamp_.resize(mesh_.halfedge_count());
-    watches_ = Watchlists<Watch>(mesh_.vertex_count());
     leave_queue();
 }
 

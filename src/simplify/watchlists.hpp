@@ -14,7 +14,7 @@ namespace delmesh {
 template <class Item>
 class Watchlists {
 public:
-    explicit Watchlists(std::size_t vertices) : first_(vertices, none) {}
+    explicit Watchlists(std::size_t vertices = 0) : first_(vertices, none) {}
 
     void add(VertexId v, const Item& item) {
         std::uint32_t node = free_;
@@ -58,9 +58,9 @@ public:
             }
         }
     }
-    /// Empties all lists.
-    void clear() {
-        std::fill(first_.begin(), first_.end(), none);
+    /// Empty lists for so many vertices.
+    void reset(std::size_t vertices) {
+        first_.assign(vertices, none);
         nodes_.clear();
         free_ = none;
     }

@@ -98,6 +98,7 @@ Quadric VertexWeights::history(VertexId v) const {
 void VertexWeights::set_history(VertexId v, const Quadric& merged) {
     history_[at_[v.index()]] = {merged.xx, merged.xy, merged.xz, merged.yy, merged.yz, merged.zz};
     std::uint32_t& at = rest_at_[v.index()];
+    if (at == none && merged.b == Vec3() && merged.c == 0) return;
     if (at == none) at = rest_.take();
     rest_[at] = {merged.b, merged.c};
 }
