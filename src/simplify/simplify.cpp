@@ -226,14 +226,19 @@ std::unique_ptr<Sweeper> sweep_first(Mesh& mesh, const Tuning& tuning, const Sim
     return sweeper;
 }
 
-/// What may be done on the way. Steps that are recorded know no flips, so neither the first nor the last then.
+/// Where to, and what may be done on the way. Steps that are recorded know no flips, so neither the first nor the last
+/// then.
 struct Way {
+    std::vector<std::size_t> targets;
+    Tuning tuning;
+    DecimatorLimits limits;
     bool records = false, shakes = false, refits = false, polishes = false;
 };
 
 /// Down to so many vertices, if it can be, and makes the best of them.
-void reach(Decimator& decimator, std::size_t target, const Way& way, const Tuning& tuning, Numbering& numbering,
-           SimplifyReport& report, const Context* context) {
+void reach(Decimator& decimator, std::size_t target, const Way& way, Numbering& numbering, SimplifyReport& report,
+           const Context* context) {
+    const Tuning& tuning = way.tuning;
     const bool polish = way.polishes && target <= tuning.polish_below;
     const std::size_t before = decimator.vertices();
     decimator.guard_for(target);
@@ -272,27 +277,27 @@ void begin(Decimator& decimator, std::optional<SurfaceSamples> samples, std::uni
     report.moves = decimator.refit({.rounds = 1}, context);
 }
 
-/// From level to level; `limits.error` is absolute. Nothing of what that takes is left at the end.
-void go_down(Mesh& mesh, const std::vector<std::size_t>& targets, const Tuning& tuning, const SimplifyOptions& options,
-             const Way& way, const DecimatorLimits& limits, Recorder* recorder, Numbering& numbering,
+/// From level to level. Nothing of what that takes is left at the end.
+void go_down(Mesh& mesh, const Way& way, const SimplifyOptions& options, Recorder* recorder, Numbering& numbering,
              SimplifyReport& report, const Context* context) {
+    const std::size_t target = way.targets.front();
     // All steps of a progressive mesh are levels, so they are made with all care.
-    const bool sweeps = way.polishes && mesh.vertex_count() > sweep_until(targets.front(), tuning);
+    const bool sweeps = way.polishes && mesh.vertex_count() > sweep_until(target, way.tuning);
     std::optional<SurfaceSamples> samples;
     if (way.refits) {
         const std::size_t count = std::min(report.input_vertices, mesh.vertex_count());
-        const std::size_t most = samples_for(targets.front());
+        const std::size_t most = samples_for(target);
         samples = sweeps ? SurfaceSamples(SampleSource(mesh, count, local_scale(mesh), most))
                          : SurfaceSamples(mesh, count, local_scale(mesh), most);
     }
     std::unique_ptr<Sweeper> sweeper;
-    if (sweeps) sweeper = sweep_first(mesh, tuning, options, targets.front(), numbering, context);
-    Decimator decimator(mesh, tuning, limits, recorder);
+    if (sweeps) sweeper = sweep_first(mesh, way.tuning, options, target, numbering, context);
+    Decimator decimator(mesh, way.tuning, way.limits, recorder);
     begin(decimator, std::move(samples), std::move(sweeper), report, context);
-    for (const std::size_t target : targets) {
-        reach(decimator, target, way, tuning, numbering, report, context);
+    for (const std::size_t level : way.targets) {
+        reach(decimator, level, way, numbering, report, context);
         report.stop = report.levels.back().stop;
-        const bool last = target == targets.back() || report.stop == SimplifyStop::cancelled;
+        const bool last = level == way.targets.back() || report.stop == SimplifyStop::cancelled;
         if (last) break;
         if (options.on_level) options.on_level(without_dead(mesh, numbering), report.levels.back());
     }
@@ -317,12 +322,14 @@ SimplifyReport run(Mesh& mesh, const SimplifyOptions& options, ProgressiveMesh* 
     report.least_vertices = least_vertices(mesh);
     const bool refit = options.refit && shakes && !has_hub(mesh);
     Numbering numbering(mesh);
-    const Way way{.records = record != nullptr,
+    const Way way{.targets = targets,
+                  .tuning = tuning,
+                  .limits = {options.max_quadric_error_rel * diagonal, options.remesh.precision},
+                  .records = record != nullptr,
                   .shakes = shakes && record == nullptr,
                   .refits = refit,
                   .polishes = refit && record == nullptr};
-    go_down(mesh, targets, tuning, options, way, {options.max_quadric_error_rel * diagonal, options.remesh.precision},
-            record != nullptr ? &recorder : nullptr, numbering, report, context);
+    go_down(mesh, way, options, record != nullptr ? &recorder : nullptr, numbering, report, context);
     drop_isolated(mesh);
     CompactMap map = numbering.in_order_of_names(mesh);
     numbering.renumber(mesh, map);

@@ -4,11 +4,13 @@
 #include "delmesh/mesh/edits.hpp"
 #include "simplify/delaunay_sample.hpp"
 #include "simplify/edge_cost.hpp"
+#include "simplify/pool.hpp"
 #include "simplify/walk.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 namespace delmesh {
@@ -88,6 +90,73 @@ TEST(VertexWeights, FollowACollapse) {
             EXPECT_NEAR(followed.c, expected.c, 1e-9 * expected.trace());
         }
     }
+}
+
+/// Planes that are computed when they are asked for are those that are kept, to the last bit.
+TEST(VertexWeights, ThatKeepOnlyWhatHasChangedAreTheSame) {
+    for (const char* name : {"noisy-sphere", "terrain"}) {
+        Mesh mesh = delaunay_sample(name, 600);
+        const Tuning tuning;
+        VertexWeights all(mesh, 1, tuning);
+        VertexWeights changed(mesh, 1, tuning, VertexWeights::Kept::changed);
+        Star star;
+        std::size_t done = 0;
+        for (std::size_t i = 0; i < mesh.halfedge_count(); i += 17) {
+            const HalfedgeId h(i);
+            if (!mesh.origin(h).valid() || !gather(mesh, h, 1, star) || !can_collapse(mesh, h)) continue;
+            const HalfedgeId t = mesh.twin(h);
+            const VertexId left = mesh.apex(h);
+            const VertexId right = t.valid() ? mesh.apex(t) : VertexId();
+            const Vec3 w = star.v_point * 0.5;
+            changed.prepare(star);
+            for (VertexWeights* weights : {&all, &changed})
+                weights->set_history(star.u, weights->merged_history(star, w));
+            collapse(mesh, h, star.frame.to_mesh(w));
+            for (VertexWeights* weights : {&all, &changed}) {
+                weights->forget(star.v);
+                weights->replace_star(star, star.frame.to_local(mesh.point(star.u)), left, right);
+            }
+            if (++done % 20 != 0) continue;
+            const CompactMap map = compact(mesh);
+            all.renumber(map.vertex);
+            changed.close_gaps(map.vertex);
+        }
+        EXPECT_GT(done, 30u);
+        const auto expect_same = [](const Quadric& a, const Quadric& b) {
+            EXPECT_EQ(a.xx, b.xx);
+            EXPECT_EQ(a.yz, b.yz);
+            EXPECT_EQ(a.b, b.b);
+            EXPECT_EQ(a.c, b.c);
+        };
+        for (std::size_t i = 0; i < mesh.halfedge_count(); ++i) {
+            const HalfedgeId h(i);
+            if (!mesh.origin(h).valid()) continue;
+            const Vec3 to_v = mesh.point(mesh.target(h)) - mesh.point(mesh.origin(h));
+            expect_same(changed.of_edge(mesh.origin(h), mesh.target(h), to_v),
+                        all.of_edge(mesh.origin(h), mesh.target(h), to_v));
+            expect_same(changed.history(mesh.origin(h)), all.history(mesh.origin(h)));
+        }
+    }
+}
+
+TEST(Pool, GivesRoomAgainThatWasGivenBack) {
+    struct Pair {
+        double a = 1, b = 2;
+    };
+    Pool<Pair> pool;
+    constexpr std::uint32_t many = 100'000;  // more than a block
+    for (std::uint32_t i = 0; i < many; ++i) {
+        ASSERT_EQ(pool.take(), i);
+        pool[i].a = i;
+    }
+    pool.give_back(7);
+    pool.give_back(many - 1);
+    EXPECT_EQ(pool.take(), many - 1);
+    EXPECT_EQ(pool[many - 1].a, 1) << "as new";
+    EXPECT_EQ(pool.take(), 7u);
+    EXPECT_EQ(pool.take(), many);
+    EXPECT_EQ(pool[8].a, 8);
+    EXPECT_EQ(pool[many - 2].a, many - 2);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "simplify/samples.hpp"
 
 #include "delmesh/delaunay/remesh.hpp"
+#include "delmesh/mesh/rounding.hpp"
 #include "simplify/decimator.hpp"
 #include "simplify/delaunay_sample.hpp"
 #include "simplify/frame.hpp"
@@ -157,6 +158,32 @@ TEST_P(SamplesOf, AreAllKeptAndKnowTheirDistanceAfterDecimation) {
         }
     }
     EXPECT_EQ(seen, 3 * (vertices + faces)) << "every sample lies on one face";
+}
+
+/// Places that single precision holds take less room than others, and no bit of either is lost.
+TEST_P(SamplesOf, AreMadeAgainToTheLastBit) {
+    Mesh mesh = delaunay_sample(GetParam(), 1000);
+    for (std::size_t v = 0; v < mesh.vertex_count() / 2; ++v)
+        mesh.set_point(VertexId(v), round_to_float(mesh.point(VertexId(v))));
+    const Mesh original = mesh;
+    const SampleSource source(mesh, mesh.vertex_count() - 3, 1, 700);
+    const std::size_t stride = source.stride();
+    ASSERT_GT(stride, 1u);
+    mesh = Mesh();
+    std::size_t i = 0;
+    for (std::size_t v = 0; v < original.vertex_count() - 3; v += stride, ++i) {
+        EXPECT_EQ(source.point(i), original.point(VertexId(v)));
+        EXPECT_EQ(source.near(i), VertexId(v));
+    }
+    for (std::size_t f = 0; f < original.face_count(); f += stride, ++i) {
+        const auto corner = [&](std::size_t k) { return original.point(original.corners()[3 * f + k]); };
+        EXPECT_EQ(source.point(i), (corner(0) * (1.0 / 3) + corner(1) * (1.0 / 3)) + corner(2) * (1.0 / 3));
+        EXPECT_EQ(source.face(original, i), FaceId(f));
+        const Vec3 normal = cross(corner(1) - corner(0), corner(2) - corner(0));
+        EXPECT_NEAR(source.facing(i).weight, 0.75 * norm(normal), 1e-6 * norm(normal));
+        EXPECT_NEAR(source.facing(i).normal[2], normal.z / norm(normal), 1e-6);
+    }
+    EXPECT_EQ(source.size(), i);
 }
 
 /// After sweeps, which leave the samples alone, each is attached to a face that is nearly the nearest of all.
