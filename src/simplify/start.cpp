@@ -112,7 +112,9 @@ bool make_start_delaunay(Mesh& mesh, const SimplifyOptions& options, const Tunin
         report.remesh = std::move(result.report);
         report.remesh_angle_deg = angle_deg;
         report.thinned_to = thinned_to;
-        return report.remesh->stop == StopReason::done;
+        if (report.remesh->stop != StopReason::done) return false;
+        report.remesh->provenance = {};  // of vertices that are going to vanish
+        return true;
     };
     const std::size_t vertices = mesh.vertex_count();
     Remeshed first = with_few_points(mesh, how, context);

@@ -116,7 +116,7 @@ struct SimplifyOptions {
 };
 
 struct SimplifyReport {
-    /// Given if the input was not Delaunay and was remeshed first.
+    /// Given if the input was not Delaunay and was remeshed first. Without provenance, unless that stopped short.
     std::optional<RemeshReport> remesh;
     /// Mode feature: the angle that this was done with. More than was asked for on large noisy inputs
     /// (`wider_angle_on_noise`), and where that needed more vertices than `remesh.max_vertices` or points that doubles
