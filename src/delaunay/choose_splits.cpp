@@ -126,9 +126,16 @@ void SplitChooser::close_by_baseline() {
     leaves_open_ = false;
 }
 
-bool SplitChooser::lay_slices() {
+bool SplitChooser::lay_slices(const SliceOptions& options, std::span<const std::array<VertexId, 2>> distrusted,
+                              const Context* context) {
+    for (const auto& [a, b] : distrusted) {
+        const std::uint32_t e = edge_between(a, b);
+        if (e == SplitModel::none) continue;
+        model_.prepare(e);
+        model_.distrust(e);
+    }
     search_.set_open(bad_);
-    search_.close_by_slices(static_cast<std::uint64_t>(default_work()));
+    search_.close_by_slices(static_cast<std::uint64_t>(default_work()), options, context);
     return search_.open().empty();
 }
 

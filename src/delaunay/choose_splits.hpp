@@ -51,8 +51,10 @@ public:
     [[nodiscard]] bool leaves_open() const { return leaves_open_; }
     /// Takes the baseline in all regions where edges are open, or where it has fewer points.
     void close_by_baseline();
-    /// Instead of `search`: threads in parallel planes. False if edges stay open.
-    bool lay_slices();
+    /// Instead of `search`: threads in parallel planes. These input edges, by their ends, are distrusted. False if
+    /// edges stay open.
+    bool lay_slices(const SliceOptions& options, std::span<const std::array<VertexId, 2>> distrusted,
+                    const Context* context);
     /// Instead of `search`: in about the time of the shells, and less well. Edges may stay as they are.
     void construct_quickly();
     /// The points, ordered by edge and parameter.

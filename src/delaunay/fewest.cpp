@@ -9,6 +9,7 @@
 #include "delaunay/vertex_limit.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -26,6 +27,18 @@ constexpr std::size_t least_most_splits = 500;
 constexpr int most_partings = 12;
 /// Rounds in a row that leave hardly less.
 constexpr int most_useless_partings = 2;
+
+/// One after the other until nothing is left to shells; rounding in half units in the last place.
+constexpr std::array<SliceOptions, 8> slice_ways{{
+    {},
+    {4},
+    {8},
+    {16},
+    {1, true},
+    {1, true, true},
+    {2, true, true},
+    {4, true, true},
+}};
 
 constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
 
@@ -194,17 +207,26 @@ private:
         return by_plan(planner, planner.close_by_baseline());
     }
 
-    /// Where shells explode on what the search leaves open: a plan that has nothing of that.
+    /// Where shells explode on what the search leaves open: a plan that has nothing of that. What rounding breaks of it
+    /// is planned again, at a greater distance from what rounding may do.
     TrialPointer by_slices(TrialPointer trial) {
         has_sliced_ = true;
-        std::vector<SplitPoint> none;
-        SplitPlanner planner(marked_, start_.bad, {static_cast<int>(options_.effort), options_.seed}, none);
-        auto plan = planner.lay_slices();
-        if (!plan) return trial;
-        trial.reset();
-        const std::size_t failed = failed_.size();
-        trial = by_plan(planner, std::move(*plan));
-        failed_.resize(failed);
+        const double ulp = options_.precision == Precision::float32 ? 0x1p-24 : 0x1p-53;
+        std::vector<std::array<VertexId, 2>> broken;
+        for (const SliceOptions& way : slice_ways) {
+            std::vector<SplitPoint> none;
+            SplitPlanner planner(marked_, start_.bad, {static_cast<int>(options_.effort), options_.seed}, none);
+            auto plan = planner.lay_slices({way.rounding * ulp, way.everywhere, way.dents_fans}, broken, context_);
+            if (!plan) return trial;
+            std::vector<HalfedgeId> left;
+            TrialPointer sliced = carry_out_plan(*plan, most_splits_, left);
+            if (!sliced->done()) return sliced->cancelled() ? std::move(sliced) : std::move(trial);
+            const std::vector<std::array<VertexId, 2>> more = input_edges(*sliced, left);
+            broken.insert(broken.end(), more.begin(), more.end());
+            sort_unique(broken);
+            finish(*sliced, std::min(plan->size() + plan->size() / 8, most_splits_), std::move(left));
+            if (sliced->done() || sliced->cancelled()) return sliced;
+        }
         return trial;
     }
 

@@ -1,29 +1,13 @@
 #include "delaunay/foot_threads.hpp"
 
-#include <algorithm>
-#include <limits>
+#include "delaunay/split_at_seen.hpp"
 
 namespace delmesh {
 namespace {
 
-/// Points keep this distance, as a share of their edge: what lies closer together is hard to tell apart.
-constexpr double room = 1e-10;
-
 /// Negative if there is none.
 double foot(const SplitModel& model, std::uint32_t e, std::size_t part) {
-    const double a = model.part_start(e, part);
-    const double b = model.parts(e)[part].end;
-    double least = std::numeric_limits<double>::infinity();
-    double at = -1;
-    for (const std::uint32_t s : model.layout().edge(e).side) {
-        if (s == SplitModel::none) continue;
-        const Contact seen = model.nearest(s, a, b);
-        const double x = seen.at.x;
-        if (seen.cot >= least || !(x > a + room) || !(x < b - room)) continue;
-        least = seen.cot;
-        at = x;
-    }
-    return at;
+    return split_at_what_is_seen(model, e, part, [](std::uint32_t, const Contact& seen) { return seen.at.x; });
 }
 
 }  // namespace

@@ -1,15 +1,17 @@
 #include "delaunay/slice_threads.hpp"
 
+#include "delaunay/split_at_seen.hpp"
+
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <iterator>
 
 namespace delmesh {
 namespace {
 
-/// Points keep this distance, as a share of their edge: what lies closer together is hard to tell apart.
-constexpr double room = 1e-10;
-constexpr int axis_rounds = 30;
+constexpr std::size_t most_steps = 400'000;
+constexpr std::size_t steps_per_look = 1024;
+constexpr int most_doubts = 20;
+constexpr double least_part = 1e-13;
 
 }  // namespace
 
@@ -56,119 +58,108 @@ void SliceThreads::gather(std::uint32_t e) {
 
 // --- where ---
 
-/// The direction of most of the edges' length. The same bits at any scale that is a power of two.
-void SliceThreads::find_axis() {
-    const Mesh& mesh = model_.layout().marked().mesh();
-    const auto along = [&](std::uint32_t e) {
-        const HalfedgeId h = model_.layout().edge(e).halfedge;
-        return mesh.point(mesh.target(h)) - mesh.point(mesh.origin(h));
-    };
-    double largest = 0;
-    for (const std::uint32_t e : edges_) {
-        const Vec3 d = along(e);
-        largest = std::max({largest, std::fabs(d.x), std::fabs(d.y), std::fabs(d.z)});
-    }
-    int exponent = 0;
-    (void)std::frexp(largest, &exponent);
-    std::array<Vec3, 3> sum{};
-    double longest = 0;
-    for (const std::uint32_t e : edges_) {
-        const Vec3 far = along(e);
-        const Vec3 d{std::ldexp(far.x, -exponent), std::ldexp(far.y, -exponent), std::ldexp(far.z, -exponent)};
-        sum[0] = sum[0] + d * d.x;
-        sum[1] = sum[1] + d * d.y;
-        sum[2] = sum[2] + d * d.z;
-        if (dot(d, d) <= longest) continue;
-        longest = dot(d, d);
-        axis_ = d;
-    }
-    for (int i = 0; i < axis_rounds; ++i) {
-        const Vec3 next{dot(sum[0], axis_), dot(sum[1], axis_), dot(sum[2], axis_)};
-        axis_ = next * (1 / std::sqrt(dot(next, next)));
-    }
-}
-
-SliceThreads::Levels SliceThreads::levels(std::uint32_t e) const {
-    const Mesh& mesh = model_.layout().marked().mesh();
-    const HalfedgeId h = model_.layout().edge(e).halfedge;
-    const VertexId from = std::min(mesh.origin(h), mesh.target(h));
-    const VertexId to = std::max(mesh.origin(h), mesh.target(h));
-    return {dot(axis_, mesh.point(from)), dot(axis_, mesh.point(to))};
-}
-
-/// Of a corner: from its own coordinates, so that all that see it agree.
-double SliceThreads::level_of(std::uint32_t side, const Contact& seen) const {
-    if (seen.edge != SplitModel::none) return levels(seen.edge).at(seen.along);
-    const FacetLayout& layout = model_.layout();
-    const Facet facet = layout.facet(layout.facet_at(side));
-    const Side frame = layout.side(side);
-    double least = std::numeric_limits<double>::infinity();
-    double level = 0;
-    for (std::uint32_t i = facet.first_side; i < facet.first_side + facet.side_count; ++i) {
-        const Side other = layout.side(i);
-        const Levels ends = levels(other.edge);
-        for (const double t : {0.0, 1.0}) {
-            const Point2 d = frame.to_frame(other.at(t)) - seen.at;
-            if (dot(d, d) >= least) continue;
-            least = dot(d, d);
-            level = t == 0 ? ends.from : ends.to;
-        }
-    }
-    return level;
-}
-
 /// Where the plane cuts that the part sees under the larger angle; negative if neither does.
-double SliceThreads::slice(std::uint32_t e, std::size_t part) const {
+double SliceThreads::slice(std::uint32_t e, std::size_t part) {
+    return split_at_what_is_seen(model_, e, part, [&](std::uint32_t s, const Contact& seen) {
+        return levels_.place_of(e, levels_.level_of(s, seen));
+    });
+}
+
+/// In the middle, or nearer to a corner where facets get narrow.
+double SliceThreads::middle(std::uint32_t e, std::size_t part) const {
     const double a = model_.part_start(e, part);
     const double b = model_.parts(e)[part].end;
-    const Levels ends = levels(e);
-    double least = std::numeric_limits<double>::infinity();
-    double at = -1;
+    return 0.5 * (a + b);
+}
+
+/// Rounding moves what it sees by so much along the part, at a distance y, which changes the cotangent by the quotient.
+bool SliceThreads::is_doubtful(std::uint32_t e, std::size_t part) {
+    const double a = model_.part_start(e, part);
+    const double b = model_.parts(e)[part].end;
+    const double rounding = levels_.rounding(e);
+    double sum = 0;
     for (const std::uint32_t s : model_.layout().edge(e).side) {
         if (s == SplitModel::none) continue;
         const Contact seen = model_.nearest(s, a, b);
-        const double x = (level_of(s, seen) - ends.from) / (ends.to - ends.from);
-        if (seen.cot >= least || !(x > a + room) || !(x < b - room)) continue;
-        least = seen.cot;
-        at = x;
+        sum += seen.cot - rounding / seen.at.y;
     }
-    return at;
+    return sum < 0;
 }
 
 // --- threads ---
 
-/// Splits one bad part, and has the edge looked at again. False if no plane cuts any.
-bool SliceThreads::split(std::uint32_t e, bool halves) {
+/// Splits one bad part, and has the edge looked at again.
+SliceThreads::Found SliceThreads::split(std::uint32_t e, bool halves) {
     const std::size_t parts = model_.parts(e).size();
-    bool is_bad = false;
+    Found found = Found::nothing;
     for (std::size_t part = 0; part < parts; ++part) {
         if (!model_.is_bad(e, model_.parts(e)[part])) continue;
-        is_bad = true;
         double at = slice(e, part);
-        if (at < 0 && halves) at = 0.5 * (model_.part_start(e, part) + model_.parts(e)[part].end);
-        if (at < 0) continue;
-        model_.cut(e, part, part, {&at, 1});
-        model_.add_suspect(e);
-        return true;
+        if (at < 0 && halves) at = middle(e, part);
+        if (at >= 0) return cut(e, part, at) ? Found::cut : Found::no_room;
+        found = Found::no_plane;
     }
-    return !is_bad;
+    return found;
 }
 
-bool SliceThreads::solve(std::size_t steps) {
-    find_axis();
+bool SliceThreads::cut(std::uint32_t e, std::size_t part, double at) {
+    if (at - model_.part_start(e, part) < least_part || model_.parts(e)[part].end - at < least_part) return false;
+    model_.cut(e, part, part, {&at, 1});
+    model_.add_suspect(e);
+    return true;
+}
+
+/// Works off the model's suspects.
+bool SliceThreads::work_off(const Context* context) {
+    std::vector<std::uint32_t> later;
+    for (; model_.suspect_count() > 0 || !later.empty(); ++steps_) {
+        const bool halves = model_.suspect_count() == 0;
+        const std::uint32_t e = halves ? later.back() : model_.suspect(model_.suspect_count() - 1);
+        if (steps_ >= most_steps || limits_.is_exhausted() || !model_.is_movable(e)) return false;
+        if (steps_ % steps_per_look == 0 && is_cancelled(context)) return false;
+        halves ? later.pop_back() : model_.drop_suspect(model_.suspect_count() - 1);
+        model_.prepare(e);
+        const Found found = split(e, halves);
+        if (found == Found::no_room) return false;
+        if (found == Found::no_plane) later.push_back(e);
+    }
+    return true;
+}
+
+/// Splits what rounding may make bad. Not so at corners: there it does more the shorter a part is.
+bool SliceThreads::split_doubtful(const Context* context) {
+    std::vector<std::uint32_t> changed;
+    model_.visit_changed([&](std::uint32_t e) {
+        const bool is_watched = options_.everywhere || model_.is_distrusted(e);
+        if (is_watched && !model_.is_given_up(e) && model_.is_movable(e)) changed.push_back(e);
+    });
+    for (const std::uint32_t e : changed) {
+        for (std::size_t part = 0; part < model_.parts(e).size(); ++part) {
+            if (!is_doubtful(e, part)) continue;
+            model_.prepare(e);
+            double at = slice(e, part);
+            if (at < 0 && part > 0 && part + 1 < model_.parts(e).size()) at = middle(e, part);
+            if (at < 0 || !cut(e, part, at)) continue;
+            if (!work_off(context)) return false;
+            --part;
+        }
+    }
+    return true;
+}
+
+bool SliceThreads::solve(const Context* context) {
+    steps_ = 0;
+    levels_.find_axis(edges_);
     for (const std::uint32_t e : edges_) {
         model_.cut(e, 0, model_.point_count(e), {});
         model_.give_up(e, false);
         model_.add_suspect(e);
     }
-    std::vector<std::uint32_t> later;
-    for (std::size_t step = 0; model_.suspect_count() > 0 || !later.empty(); ++step) {
-        const bool halves = model_.suspect_count() == 0;
-        const std::uint32_t e = halves ? later.back() : model_.suspect(model_.suspect_count() - 1);
-        if (step >= steps || limits_.is_exhausted() || !model_.is_movable(e)) return false;
-        halves ? later.pop_back() : model_.drop_suspect(model_.suspect_count() - 1);
-        model_.prepare(e);
-        if (!split(e, halves)) later.push_back(e);
+    std::size_t before = 0;
+    if (!work_off(context)) return false;
+    for (int round = 0; options_.rounding > 0 && round < most_doubts && model_.point_count() != before; ++round) {
+        before = model_.point_count();
+        if (!split_doubtful(context)) return false;
     }
     return true;
 }

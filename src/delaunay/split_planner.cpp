@@ -42,8 +42,10 @@ std::vector<SplitPoint> SplitPlanner::close_by_baseline() {
     return hand_over();
 }
 
-std::optional<std::vector<SplitPoint>> SplitPlanner::lay_slices() {
-    if (chooser().lay_slices()) return hand_over();
+std::optional<std::vector<SplitPoint>> SplitPlanner::lay_slices(const SliceOptions& options,
+                                                                std::span<const std::array<VertexId, 2>> distrusted,
+                                                                const Context* context) {
+    if (chooser().lay_slices(options, distrusted, context)) return hand_over();
     rest();
     return std::nullopt;
 }

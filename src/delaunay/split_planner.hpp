@@ -28,7 +28,9 @@ public:
     /// `SplitChooser::close_by_baseline`; hands over the changed plan.
     [[nodiscard]] std::vector<SplitPoint> close_by_baseline();
     /// `SplitChooser::lay_slices`; hands over the plan.
-    [[nodiscard]] std::optional<std::vector<SplitPoint>> lay_slices();
+    [[nodiscard]] std::optional<std::vector<SplitPoint>> lay_slices(const SliceOptions& options,
+                                                                    std::span<const std::array<VertexId, 2>> distrusted,
+                                                                    const Context* context);
     /// `SplitChooser::mend`; hands over the changed plan.
     [[nodiscard]] std::optional<std::vector<SplitPoint>> mend(std::span<const std::array<VertexId, 2>> edges);
     /// `SplitChooser::take_better_regions`; hands over the changed plan.

@@ -1,7 +1,6 @@
 #include "delaunay/split_search.hpp"
 
 #include "delaunay/foot_threads.hpp"
-#include "delaunay/slice_threads.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -29,7 +28,6 @@ constexpr std::size_t most_feet = 512;
 constexpr std::size_t most_feet_of_few = 2048;
 constexpr std::size_t few_bad_edges = 1000;
 constexpr std::size_t most_weaved = 1024;
-constexpr std::size_t most_slices = 400'000;
 constexpr std::size_t short_slide = 8;
 constexpr std::size_t most_slid_at_once = 400;
 constexpr double open_share = 0.5;      ///< of the work, for what is open
@@ -120,24 +118,27 @@ void SplitSearch::close_by_feet(std::uint64_t work, std::size_t most) {
         close_each([&](std::uint32_t e) { return !repair_.is_exhausted() && settle(e, lay_feet(e, steps)); });
 }
 
-void SplitSearch::close_by_slices(std::uint64_t work) {
+void SplitSearch::close_by_slices(std::uint64_t work, const SliceOptions& options, const Context* context) {
     limit_work(work);
-    SliceThreads slices(model_, repair_);
-    std::vector<std::uint32_t> failed;
+    SliceThreads slices(model_, repair_, options);
+    std::vector<bool> failed;
     close_each([&](std::uint32_t e) {
-        if (std::find(failed.begin(), failed.end(), e) != failed.end()) return false;
+        if ((e < failed.size() && failed[e]) || is_cancelled(context)) return false;
         slices.gather(e);
         std::vector<std::uint32_t> open;
         std::copy_if(slices.edges().begin(), slices.edges().end(), std::back_inserter(open),
                      [&](std::uint32_t i) { return model_.is_given_up(i); });
         model_.begin();
-        if (slices.solve(most_slices)) {
+        if (slices.solve(context)) {
             model_.commit();
             return true;
         }
         model_.rollback();
-        for (const std::uint32_t i : open) model_.give_up(i, true);
-        failed.insert(failed.end(), open.begin(), open.end());
+        failed.resize(model_.edge_count(), false);
+        for (const std::uint32_t i : open) {
+            model_.give_up(i, true);
+            failed[i] = true;
+        }
         return false;
     });
 }

@@ -2,6 +2,7 @@
 // A large-neighbourhood search for few split points: take some away, repair what becomes bad, keep what is not worse.
 
 #include "base/random.hpp"
+#include "delaunay/slice_threads.hpp"
 #include "delaunay/split_model.hpp"
 #include "delaunay/split_regions.hpp"
 #include "delaunay/split_repair.hpp"
@@ -48,7 +49,7 @@ public:
     void close_open(std::uint64_t work);
 
     /// Lays threads in parallel planes around each open edge, in place of all that is there.
-    void close_by_slices(std::uint64_t work);
+    void close_by_slices(std::uint64_t work, const SliceOptions& options, const Context* context);
 
     /// Lets these edges keep a distance from ties, and repairs them. False if nothing has changed.
     bool mend(const std::vector<std::uint32_t>& edges, std::uint64_t work);
