@@ -28,16 +28,15 @@ constexpr int most_partings = 12;
 /// Rounds in a row that leave hardly less.
 constexpr int most_useless_partings = 2;
 
-/// One after the other until nothing is left to shells; rounding in half units in the last place.
-constexpr std::array<SliceOptions, 8> slice_ways{{
-    {},
-    {4},
-    {8},
-    {16},
-    {1, true},
-    {1, true, true},
-    {2, true, true},
-    {4, true, true},
+/// What planes keep from what rounding may do, in half units in the last place: one way after the other until shells
+/// can finish what that leaves.
+constexpr std::array<SliceOptions, 6> slice_ways{{
+    {.rounding = 0},
+    {.rounding = 4},
+    {.rounding = 1, .everywhere = true},
+    {.rounding = 1, .everywhere = true, .dents_fans = true},
+    {.rounding = 2, .everywhere = true, .dents_fans = true},
+    {.rounding = 4, .everywhere = true, .dents_fans = true},
 }};
 
 constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
@@ -219,12 +218,12 @@ private:
             auto plan = planner.lay_slices({way.rounding * ulp, way.everywhere, way.dents_fans}, broken, context_);
             if (!plan) return trial;
             std::vector<HalfedgeId> left;
-            TrialPointer sliced = carry_out_plan(*plan, most_splits_, left);
+            TrialPointer sliced = carry_out_plan(*plan, unlimited, left);
             if (!sliced->done()) return sliced->cancelled() ? std::move(sliced) : std::move(trial);
             const std::vector<std::array<VertexId, 2>> more = input_edges(*sliced, left);
             broken.insert(broken.end(), more.begin(), more.end());
             sort_unique(broken);
-            finish(*sliced, std::min(plan->size() + plan->size() / 8, most_splits_), std::move(left));
+            finish(*sliced, plan->size() + plan->size() / 8, std::move(left));
             if (sliced->done() || sliced->cancelled()) return sliced;
         }
         return trial;

@@ -11,12 +11,8 @@ namespace {
 constexpr int axis_rounds = 30;
 /// Edges that lean more are cut by planes only.
 constexpr double least_slope = 0.9;
-
-/// Of the angle at `from` over the edge from the origin to p.
-double cot_at(const Vec3& from, const Vec3& p) {
-    const Vec3 d = p - from;
-    return -dot(from, d) / norm(cross(from, d));
-}
+/// Of a cotangent, in angles of the fan.
+constexpr double least_slack = 0.2;
 
 }  // namespace
 
@@ -81,23 +77,42 @@ void SliceLevels::add_ray(VertexId v, VertexId other, HalfedgeId h) {
     const double rise = dot(axis_, d);
     const double slope = std::fabs(rise) / norm(d);
     const int direction = !(slope > least_slope) ? 0 : rise > 0 ? 1 : -1;
-    rays_.push_back({marked.mesh().edge(h).value(), v < other ? 0u : 1u, direction, d * (1 / std::fabs(rise)), slope});
+    rays_.push_back({marked.mesh().edge(h).value(), v < other ? 0u : 1u, direction, d * (1 / std::fabs(rise)), slope,
+                     marked.mesh().is_boundary(h)});
 }
 
-/// Neighbours that all rise, or all fall. Where planes leave an edge between two others not Delaunay, they get spheres.
-void SliceLevels::add_fan(std::span<const Ray> fan) {
-    double sum = 0;
-    bool fails = false;
-    for (std::size_t i = 0; i < fan.size(); ++i) {
-        sum += fan[i].slope;
-        if (i == 0 || i + 1 == fan.size()) continue;
-        const Vec3& p = fan[i].at_unit;
-        fails = fails || cot_at(fan[i - 1].at_unit, p) + cot_at(fan[i + 1].at_unit, p) < 0;
+/// True if planes leave an edge of the fan not Delaunay, or hardly Delaunay. What an edge at the rim of the fan sees
+/// beyond lets it be, if the surface does not end there.
+bool SliceLevels::fails(std::span<const Ray> fan, bool is_closed) {
+    const std::size_t n = fan.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        const bool has_before = is_closed || i > 0;
+        const bool has_after = is_closed || i + 1 < n;
+        if (!(has_before && has_after) && !fan[i].is_boundary) continue;
+        double cot = 0;
+        double tan = 0;
+        const auto look = [&](const Vec3& from) {
+            const Vec3& p = fan[i].at_unit;
+            const double area = norm(cross(from, p));
+            cot += dot(from, from - p) / area;
+            tan += area / dot(from, p);
+        };
+        if (has_before) look(fan[i > 0 ? i - 1 : n - 1].at_unit);
+        if (has_after) look(fan[i + 1 < n ? i + 1 : 0].at_unit);
+        if (cot < least_slack * tan) return true;
     }
-    const double slope = fails ? sum / static_cast<double>(fan.size()) : 0;
+    return false;
+}
+
+/// Neighbours that all rise, or all fall.
+void SliceLevels::add_fan(std::span<const Ray> fan, bool is_closed) {
+    double sum = 0;
+    for (const Ray& ray : fan) sum += ray.slope;
+    const double slope = fails(fan, is_closed) ? sum / static_cast<double>(fan.size()) : 0;
     for (std::size_t i = 0; i < fan.size(); ++i) {
+        const std::size_t others = dents_fans_ && !is_closed ? i * (fan.size() - 1 - i) : 0;
         end_of_[fan[i].end].insert(fan[i].edge, static_cast<std::uint32_t>(ends_.size()));
-        ends_.push_back({slope, dents_fans_ ? static_cast<double>(i * (fan.size() - 1 - i)) : 0});
+        ends_.push_back({slope, static_cast<double>(others)});
     }
 }
 
@@ -121,7 +136,7 @@ void SliceLevels::look_around(VertexId v) {
     }
     for (std::size_t begin = 0, end = 0; begin < rays_.size(); begin = end) {
         while (end < rays_.size() && rays_[end].direction == rays_[begin].direction) ++end;
-        add_fan(std::span(rays_).subspan(begin, end - begin));
+        add_fan(std::span(rays_).subspan(begin, end - begin), h.valid() && end - begin == rays_.size());
     }
 }
 

@@ -53,6 +53,7 @@ private:
         int direction = 0;      ///< 1: up along the axis; -1: down; 0: neither
         Vec3 at_unit;           ///< where its level is 1 above the corner, or below, as seen from there
         double slope = 0;       ///< of the level
+        bool is_boundary = false;
     };
     struct End {
         double slope = 0;  ///< near that end of the edge, of the level; 0: as elsewhere
@@ -66,7 +67,8 @@ private:
     [[nodiscard]] End end_at(VertexId v, HalfedgeId h);
     void look_around(VertexId v);
     void add_ray(VertexId v, VertexId other, HalfedgeId h);
-    void add_fan(std::span<const Ray> fan);
+    [[nodiscard]] static bool fails(std::span<const Ray> fan, bool is_closed);
+    void add_fan(std::span<const Ray> fan, bool is_closed);
 
     const SplitModel& model_;
     double rounding_;

@@ -3,13 +3,19 @@
 #include "delaunay/split_at_seen.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+
 
 namespace delmesh {
 namespace {
 
-constexpr std::size_t most_steps = 400'000;
+constexpr std::size_t most_steps = 1'000'000;
 constexpr std::size_t steps_per_look = 1024;
+/// See `slice`.
+constexpr double thin = 4;
+/// Parts that end so many times farther from a corner than they begin are not halved in the middle.
+constexpr double far = 4;
 constexpr int most_doubts = 20;
 constexpr double least_part = 1e-13;
 
@@ -28,15 +34,16 @@ bool SliceThreads::is_concerned(std::uint32_t e) const {
     return model_.is_given_up(e) || model_.point_count(e) > 0 || !model_.layout().edge(e).is_delaunay;
 }
 
-void SliceThreads::visit(std::uint32_t e, bool is_rim) {
+/// `rim`: so many edges from those to be solved.
+void SliceThreads::visit(std::uint32_t e, std::size_t rim) {
     model_.prepare(e);
     for (const std::uint32_t s : model_.layout().edge(e).side) {
         if (s == SplitModel::none) continue;
         const Facet facet = model_.layout().facet(model_.layout().facet_at(s));
         for (std::uint32_t i = facet.first_side; i < facet.first_side + facet.side_count; ++i) {
             const std::uint32_t other = model_.layout().edge_at(i);
-            if (!model_.is_movable(other) || (is_rim && !is_concerned(other)) || !reach(other)) continue;
-            (is_concerned(other) ? edges_ : rim_).push_back(other);
+            if (!model_.is_movable(other) || (rim == rim_.size() && !is_concerned(other)) || !reach(other)) continue;
+            (is_concerned(other) ? edges_ : rim_[rim]).push_back(other);
         }
     }
 }
@@ -45,14 +52,13 @@ void SliceThreads::gather(std::uint32_t e) {
     edges_.assign(1, e);
     reached_.clear();
     (void)reach(e);
-    for (std::size_t done = 0; done < edges_.size() || !rim_.empty();) {
-        if (done < edges_.size()) {
-            visit(edges_[done++], false);
-        } else {
-            const std::uint32_t next = rim_.back();
-            rim_.pop_back();
-            visit(next, true);
-        }
+    for (std::size_t done = 0;;) {
+        for (; done < edges_.size(); ++done) visit(edges_[done], 0);
+        const auto next = std::find_if(rim_.begin(), rim_.end(), [](const auto& edges) { return !edges.empty(); });
+        if (next == rim_.end()) return;
+        const std::uint32_t edge = next->back();
+        next->pop_back();
+        visit(edge, static_cast<std::size_t>(next - rim_.begin()) + 1);
     }
 }
 
@@ -60,15 +66,22 @@ void SliceThreads::gather(std::uint32_t e) {
 
 /// Where the plane cuts that the part sees under the larger angle; negative if neither does.
 double SliceThreads::slice(std::uint32_t e, std::size_t part) {
+    const double a = model_.part_start(e, part);
+    const double b = model_.parts(e)[part].end;
     return split_at_what_is_seen(model_, e, part, [&](std::uint32_t s, const Contact& seen) {
-        return levels_.place_of(e, levels_.level_of(s, seen));
+        const double x = levels_.place_of(e, levels_.level_of(s, seen));
+        // So near to an end, and so far from what is seen, halving helps at once, and leaves longer parts.
+        const double most = thin * seen.at.y * seen.at.y / (b - a);
+        return x - a < most || b - x < most ? -1 : x;
     });
 }
 
-/// In the middle, or nearer to a corner where facets get narrow.
+/// In the middle, or nearer to a corner that is near: facets get narrow there.
 double SliceThreads::middle(std::uint32_t e, std::size_t part) const {
     const double a = model_.part_start(e, part);
     const double b = model_.parts(e)[part].end;
+    if (a > 0 && b <= 0.5 && b > far * a) return std::sqrt(a * b);
+    if (b < 1 && a >= 0.5 && 1 - a > far * (1 - b)) return 1 - std::sqrt((1 - a) * (1 - b));
     return 0.5 * (a + b);
 }
 

@@ -6,6 +6,7 @@
 #include "delaunay/split_repair.hpp"
 #include "delmesh/base/context.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -43,7 +44,7 @@ public:
 private:
     enum class Found { nothing, cut, no_plane, no_room };
 
-    void visit(std::uint32_t e, bool is_rim);
+    void visit(std::uint32_t e, std::size_t rim);
     [[nodiscard]] bool reach(std::uint32_t e);
     [[nodiscard]] bool is_concerned(std::uint32_t e) const;
     [[nodiscard]] double slice(std::uint32_t e, std::size_t part);
@@ -59,7 +60,7 @@ private:
     SliceOptions options_;
     SliceLevels levels_;
     std::vector<std::uint32_t> edges_;
-    std::vector<std::uint32_t> rim_;
+    std::array<std::vector<std::uint32_t>, 3> rim_;
     std::vector<bool> reached_;
     std::size_t steps_ = 0;
 };
