@@ -10,23 +10,25 @@ namespace {
 
 constexpr int axis_rounds = 30;
 /// Edges that lean more are cut by planes only.
-constexpr double least_slope = 0.9;
+constexpr double least_slope = 0.1;
+/// How far spheres reach, as a share of the shortest edge.
+constexpr double near = 0.25;
 /// Of a cotangent, in angles of the fan.
 constexpr double least_slack = 0.2;
 
 }  // namespace
 
 double SliceLevels::Levels::at(double t) const {
-    if (t < near) return from + t / near * (first - from);
-    if (t > 1 - near) return to + (1 - t) / near * (last - to);
-    return first + (t - near) / (1 - 2 * near) * (last - first);
+    if (t < near_from) return from + t / near_from * (first - from);
+    if (t > 1 - near_to) return to + (1 - t) / near_to * (last - to);
+    return first + (t - near_from) / (1 - near_from - near_to) * (last - first);
 }
 
 double SliceLevels::Levels::place_of(double level) const {
     const bool up = to > from;
-    if (up ? level < first : level > first) return near * (level - from) / (first - from);
-    if (up ? level > last : level < last) return 1 - near * (level - to) / (last - to);
-    return near + (1 - 2 * near) * (level - first) / (last - first);
+    if (up ? level < first : level > first) return near_from * (level - from) / (first - from);
+    if (up ? level > last : level < last) return 1 - near_to * (level - to) / (last - to);
+    return near_from + (1 - near_from - near_to) * (level - first) / (last - first);
 }
 
 /// At a scale at which squares neither overflow nor vanish.
@@ -75,10 +77,11 @@ void SliceLevels::add_ray(VertexId v, VertexId other, HalfedgeId h) {
     if (marked.is_planar(h)) return;
     const Vec3 d = point(other) - point(v);
     const double rise = dot(axis_, d);
-    const double slope = std::fabs(rise) / norm(d);
+    const double length = norm(d);
+    const double slope = std::fabs(rise) / length;
     const int direction = !(slope > least_slope) ? 0 : rise > 0 ? 1 : -1;
     rays_.push_back({marked.mesh().edge(h).value(), v < other ? 0u : 1u, direction, d * (1 / std::fabs(rise)), slope,
-                     marked.mesh().is_boundary(h)});
+                     length, marked.mesh().is_boundary(h)});
 }
 
 /// True if planes leave an edge of the fan not Delaunay, or hardly Delaunay. What an edge at the rim of the fan sees
@@ -90,29 +93,35 @@ bool SliceLevels::fails(std::span<const Ray> fan, bool is_closed) {
         const bool has_after = is_closed || i + 1 < n;
         if (!(has_before && has_after) && !fan[i].is_boundary) continue;
         double cot = 0;
-        double tan = 0;
+        double sine = 0;
         const auto look = [&](const Vec3& from) {
             const Vec3& p = fan[i].at_unit;
             const double area = norm(cross(from, p));
             cot += dot(from, from - p) / area;
-            tan += area / dot(from, p);
+            sine += area / (norm(from) * norm(p));
         };
         if (has_before) look(fan[i > 0 ? i - 1 : n - 1].at_unit);
         if (has_after) look(fan[i + 1 < n ? i + 1 : 0].at_unit);
-        if (cot < least_slack * tan) return true;
+        if (cot < least_slack * sine) return true;
     }
     return false;
 }
 
 /// Neighbours that all rise, or all fall.
 void SliceLevels::add_fan(std::span<const Ray> fan, bool is_closed) {
-    double sum = 0;
-    for (const Ray& ray : fan) sum += ray.slope;
-    const double slope = fails(fan, is_closed) ? sum / static_cast<double>(fan.size()) : 0;
+    double rise = 0;
+    double length = 0;
+    double shortest = std::numeric_limits<double>::infinity();
+    for (const Ray& ray : fan) {
+        rise += ray.slope * ray.length;
+        length += ray.length;
+        shortest = std::min(shortest, ray.slope * ray.length);
+    }
+    const double slope = fails(fan, is_closed) ? rise / length : 0;
     for (std::size_t i = 0; i < fan.size(); ++i) {
         const std::size_t others = dents_fans_ && !is_closed ? i * (fan.size() - 1 - i) : 0;
         end_of_[fan[i].end].insert(fan[i].edge, static_cast<std::uint32_t>(ends_.size()));
-        ends_.push_back({slope, static_cast<double>(others)});
+        ends_.push_back({near * shortest, slope, static_cast<double>(others)});
     }
 }
 
@@ -165,18 +174,18 @@ const SliceLevels::Levels& SliceLevels::levels(std::uint32_t e) {
     double farthest = 0;
     for (const int i : {0, 1, 2}) farthest = std::max({farthest, std::fabs(p[i]), std::fabs(q[i])});
     const double rounded = rounding_ * farthest;
-    const double step = near * (high - low);
-    Levels it{low, low + step, high - step, high, rounded / length};
     const double slope = (high - low) / length;
+    Levels it{low, low, high, high, 0, 0, rounded / length};
     if (std::fabs(slope) > least_slope) {
         const double sign = slope > 0 ? 1 : -1;
-        const auto bend = [&](const End& end, double s, double& at_end, double& at_near) {
+        const auto bend = [&](const End& end, double s, double& at_end, double& at_near, double& share) {
             const double steep = end.slope > 0 ? s * end.slope : s * std::fabs(slope);
-            at_near = at_end + steep * (near * length + end.dent * rounded);
+            at_near = at_end + steep * (end.radius + end.dent * rounded);
             at_end += steep * end.dent * rounded;
+            share = end.radius / length;
         };
-        bend(end_at(from, h), sign, it.from, it.first);
-        bend(end_at(to, h), -sign, it.to, it.last);
+        bend(end_at(from, h), sign, it.from, it.first, it.near_from);
+        bend(end_at(to, h), -sign, it.to, it.last, it.near_to);
     }
     return levels_[e] = it;
 }

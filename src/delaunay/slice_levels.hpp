@@ -39,9 +39,11 @@ private:
     /// Linear near the ends of an edge, and between.
     struct Levels {
         double from = 0;
-        double first = 0;  ///< at `near`
-        double last = 0;   ///< at 1 - near
+        double first = 0;  ///< at `near_from`
+        double last = 0;   ///< at 1 - near_to
         double to = 0;
+        double near_from = 0;
+        double near_to = 0;
         double rounding = -1;  ///< negative: not known yet
         [[nodiscard]] double at(double t) const;
         [[nodiscard]] double place_of(double level) const;
@@ -53,14 +55,14 @@ private:
         int direction = 0;      ///< 1: up along the axis; -1: down; 0: neither
         Vec3 at_unit;           ///< where its level is 1 above the corner, or below, as seen from there
         double slope = 0;       ///< of the level
+        double length = 0;
         bool is_boundary = false;
     };
     struct End {
-        double slope = 0;  ///< near that end of the edge, of the level; 0: as elsewhere
-        double dent = 0;   ///< in units of what rounding does
+        double radius = 0;  ///< that the following holds in
+        double slope = 0;   ///< near that end of the edge, of the level; 0: as elsewhere
+        double dent = 0;    ///< in units of what rounding does
     };
-
-    static constexpr double near = 0.25;
 
     [[nodiscard]] Vec3 point(VertexId v) const;
     [[nodiscard]] const Levels& levels(std::uint32_t e);

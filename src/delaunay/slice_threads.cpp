@@ -6,7 +6,6 @@
 #include <cmath>
 #include <iterator>
 
-
 namespace delmesh {
 namespace {
 
@@ -14,6 +13,7 @@ constexpr std::size_t most_steps = 1'000'000;
 constexpr std::size_t steps_per_look = 1024;
 /// See `slice`.
 constexpr double thin = 4;
+constexpr double thinnest = 1. / 64;
 /// Parts that end so many times farther from a corner than they begin are not halved in the middle.
 constexpr double far = 4;
 constexpr int most_doubts = 20;
@@ -71,7 +71,7 @@ double SliceThreads::slice(std::uint32_t e, std::size_t part) {
     return split_at_what_is_seen(model_, e, part, [&](std::uint32_t s, const Contact& seen) {
         const double x = levels_.place_of(e, levels_.level_of(s, seen));
         // So near to an end, and so far from what is seen, halving helps at once, and leaves longer parts.
-        const double most = thin * seen.at.y * seen.at.y / (b - a);
+        const double most = std::min(thin * seen.at.y * seen.at.y / (b - a), thinnest * (b - a));
         return x - a < most || b - x < most ? -1 : x;
     });
 }
