@@ -191,5 +191,33 @@ TEST(LeaningNeedles, AreCutByPlanes) {
     EXPECT_EQ(make_delaunay(shells, options_of(SplitPlacement::shells)).stop, StopReason::max_vertices);
 }
 
+/// At many corners planes leave edges not Delaunay however near they come; at the border, and at the tips of the
+/// surface, too. And at a scale that is no power of two rounding spoils a plan elsewhere.
+TEST(LeaningNeedles, NeedNoLuck) {
+    struct Case {
+        const char* sample;
+        std::size_t faces;
+        Vec3 axis;
+        double stretch;
+        double scale;
+        std::size_t points_per_edge;
+    };
+    for (const Case& c : {Case{"noisy-sphere", 200, {1, 0, 0}, 1e5, 1, 80},
+                          {"terrain", 100, {0.96, 0.28, 0}, 1e4, 1e30, 60},
+                          {"torus", 200, {0.8, 0.36, 0.48}, 1e5, 1e-30, 100}}) {
+        SCOPED_TRACE(c.sample);
+        PolygonSoup soup = make_sample(c.sample, c.faces);
+        for (Vec3& p : soup.points) p = (p + (c.stretch - 1) * dot(p, c.axis) * c.axis) * c.scale;
+        const Mesh before(soup);
+        Mesh mesh = before;
+        const RemeshReport report = make_delaunay(mesh, options_of(SplitPlacement::fewest, 1));
+        ASSERT_EQ(report.stop, StopReason::done);
+        EXPECT_EQ(validate(mesh), "");
+        EXPECT_EQ(check_delaunay(mesh), "");
+        EXPECT_EQ(check_preserved(before, mesh, report.provenance, 1e-13), "");
+        EXPECT_LT(report.splits, c.points_per_edge * report.lower_bound);
+    }
+}
+
 }  // namespace
 }  // namespace delmesh
