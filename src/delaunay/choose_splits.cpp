@@ -20,8 +20,8 @@ constexpr double least_work_of_few = 110e6;  ///< for each start, see below
 /// Nobody wants to wait for minutes unasked. A higher effort is asked.
 constexpr double most_work = 0.8e9;
 constexpr double most_block_work = 0.8e9;  ///< in blocks, each round half of it
-/// For planes. Hardly any mesh that they can solve needs a tenth of it.
-constexpr std::uint64_t slice_work = 400'000'000;
+/// For planes. What they can solve at all took less than half of it so far.
+constexpr std::uint64_t slice_work = 200'000'000;
 constexpr int default_effort = 3;
 /// From here on the search cuts the mesh into blocks.
 constexpr std::size_t many_edges = 4000;

@@ -123,7 +123,7 @@ void SplitSearch::close_by_slices(std::uint64_t work, const SliceOptions& option
     SliceThreads slices(model_, repair_, options);
     std::vector<bool> failed;
     close_each([&](std::uint32_t e) {
-        if ((e < failed.size() && failed[e]) || is_cancelled(context)) return false;
+        if ((e < failed.size() && failed[e]) || repair_.is_exhausted() || is_cancelled(context)) return false;
         slices.gather(e);
         std::vector<std::uint32_t> open;
         std::copy_if(slices.edges().begin(), slices.edges().end(), std::back_inserter(open),
