@@ -98,6 +98,17 @@ TEST_P(Planner, ChoosersHandOverAllTheyKnow) {
     EXPECT_EQ(again.is_compared, plan.is_compared);
 }
 
+/// In the midst of it, not after: each plan takes its time.
+TEST_P(Planner, PlanesCanBeCancelled) {
+    std::vector<SplitPoint> none;
+    Context context;
+    SplitPlanner first(marked, start.bad, {1, 1}, none);
+    EXPECT_TRUE(first.lay_slices({}, {}, &context));
+    context.cancel();
+    SplitPlanner second(marked, start.bad, {1, 1}, none);
+    EXPECT_FALSE(second.lay_slices({}, {}, &context));
+}
+
 INSTANTIATE_TEST_SUITE_P(Samples, Planner, testing::Values("noisy-sphere", "terrain"));
 
 }  // namespace
