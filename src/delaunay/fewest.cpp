@@ -216,15 +216,16 @@ private:
             std::vector<SplitPoint> none;
             SplitPlanner planner(marked_, start_.bad, {static_cast<int>(options_.effort), options_.seed}, none);
             auto plan = planner.lay_slices({way.rounding * ulp, way.everywhere, way.dents_fans}, broken, context_);
-            if (!plan) return trial;
+            if (!plan) break;
             std::vector<HalfedgeId> left;
-            TrialPointer sliced = carry_out_plan(*plan, unlimited, left);
-            if (!sliced->done()) return sliced->cancelled() ? std::move(sliced) : std::move(trial);
-            const std::vector<std::array<VertexId, 2>> more = input_edges(*sliced, left);
+            trial.reset();  // to make room for the next
+            trial = carry_out_plan(*plan, unlimited, left);
+            if (!trial->done()) break;
+            const std::vector<std::array<VertexId, 2>> more = input_edges(*trial, left);
             broken.insert(broken.end(), more.begin(), more.end());
             sort_unique(broken);
-            finish(*sliced, plan->size() + plan->size() / 8, std::move(left));
-            if (sliced->done() || sliced->cancelled()) return sliced;
+            finish(*trial, plan->size() + plan->size() / 8, std::move(left));
+            if (trial->done() || trial->cancelled()) break;
         }
         return trial;
     }
