@@ -2,6 +2,7 @@
 
 #include "delaunay/non_delaunay.hpp"
 #include "delaunay/vertex_limit.hpp"
+#include "delmesh/base/error.hpp"
 #include "delmesh/mesh/edits.hpp"
 #include "delmesh/mesh/rounding.hpp"
 #include "simplify/decimator.hpp"
@@ -122,12 +123,17 @@ void decimate(Mesh& mesh, Tuning& tuning, Precision precision, std::size_t verti
     renumber(mesh, Numbering(mesh).in_order_of_names(mesh));
 }
 
-/// Where few faults are left, few points may do.
+/// Where few faults are left, few points may do. What has lost its length or area on the way here can not be split.
 bool split_the_rest(Mesh& mesh, const RemeshOptions& remesh, std::size_t vertices, const Context* context) {
     RemeshOptions few = with_at_most(remesh, vertices);
     few.placement = SplitPlacement::shells;
     Mesh copy = mesh;
-    if (make_delaunay(copy, few, context).stop != StopReason::done) return false;
+    try {
+        if (make_delaunay(copy, few, context).stop != StopReason::done) return false;
+    } catch (const Error& error) {
+        if (error.code() == ErrorCode::zero_length_edge || error.code() == ErrorCode::degenerate_geometry) return false;
+        throw;
+    }
     mesh = std::move(copy);
     return true;
 }
