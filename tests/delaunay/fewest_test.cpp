@@ -169,6 +169,17 @@ TEST(ThinTubes, WithUnevenEndsDoNotCostWhatShellsNeed) {
     EXPECT_LT(report.splits, 500u);
 }
 
+/// Searches on `mesh`, a copy of `before`: it ends, certified, on the same surface, with fewer points than that for
+/// each edge that must be split.
+void expect_few_points(const Mesh& before, Mesh& mesh, std::size_t points_per_edge) {
+    const RemeshReport report = make_delaunay(mesh, options_of(SplitPlacement::fewest, 1));
+    ASSERT_EQ(report.stop, StopReason::done);
+    EXPECT_EQ(validate(mesh), "");
+    EXPECT_EQ(check_delaunay(mesh), "");
+    EXPECT_EQ(check_preserved(before, mesh, report.provenance, 1e-13), "");
+    EXPECT_LT(report.splits, points_per_edge * report.lower_bound);
+}
+
 /// Lines at right angles to needles that lean, as all but a few do here, wind around without end: shells put more than
 /// a million points in. Planes do with ten for each edge that must be split.
 TEST(LeaningNeedles, AreCutByPlanes) {
@@ -176,12 +187,7 @@ TEST(LeaningNeedles, AreCutByPlanes) {
     for (Vec3& p : soup.points) p.x *= 1e6;
     const Mesh before(soup);
     Mesh mesh = before;
-    const RemeshReport report = make_delaunay(mesh, options_of(SplitPlacement::fewest, 1));
-    ASSERT_EQ(report.stop, StopReason::done);
-    EXPECT_EQ(validate(mesh), "");
-    EXPECT_EQ(check_delaunay(mesh), "");
-    EXPECT_EQ(check_preserved(before, mesh, report.provenance, 1e-13), "");
-    EXPECT_LT(report.splits, 15 * report.lower_bound);
+    expect_few_points(before, mesh, 15);
     for (Vec3& p : soup.points) p = p * std::ldexp(1.0, -498);
     Mesh tiny(soup);
     (void)make_delaunay(tiny, options_of(SplitPlacement::fewest, 1));
@@ -210,12 +216,7 @@ TEST(LeaningNeedles, NeedNoLuck) {
         for (Vec3& p : soup.points) p = (p + (c.stretch - 1) * dot(p, c.axis) * c.axis) * c.scale;
         const Mesh before(soup);
         Mesh mesh = before;
-        const RemeshReport report = make_delaunay(mesh, options_of(SplitPlacement::fewest, 1));
-        ASSERT_EQ(report.stop, StopReason::done);
-        EXPECT_EQ(validate(mesh), "");
-        EXPECT_EQ(check_delaunay(mesh), "");
-        EXPECT_EQ(check_preserved(before, mesh, report.provenance, 1e-13), "");
-        EXPECT_LT(report.splits, c.points_per_edge * report.lower_bound);
+        expect_few_points(before, mesh, c.points_per_edge);
     }
 }
 

@@ -224,6 +224,20 @@ Mesh needles_by_rounding(std::size_t count) {
     return Mesh(soup);
 }
 
+/// Each needle takes one flip, and the surface moves no farther than it is told.
+void expect_needles_flipped(const Mesh& before, const RemeshOptions& options, std::size_t needles) {
+    Mesh mesh = before;
+    const RemeshReport report = make_delaunay(mesh, options);
+    EXPECT_EQ(report.stop, StopReason::done);
+    EXPECT_EQ(report.splits, 0u);
+    EXPECT_EQ(report.flips, needles);
+    EXPECT_GT(report.max_deviation, 0);
+    EXPECT_LE(report.max_deviation, report.flat_tolerance);
+    EXPECT_LE(measure_distance(before, mesh).hausdorff.value, report.max_deviation);
+    EXPECT_EQ(check_delaunay(mesh), "");
+    EXPECT_EQ(validate(mesh), "");
+}
+
 TEST(FlatTolerance, ByDefaultModeFeatureLosesTheNeedlesThatStopIt) {
     const Mesh before = needles_by_rounding(30);
     RemeshOptions options;
@@ -233,16 +247,7 @@ TEST(FlatTolerance, ByDefaultModeFeatureLosesTheNeedlesThatStopIt) {
     Mesh stopped = before;
     EXPECT_EQ(make_delaunay(stopped, options).stop, StopReason::max_vertices);
     options.flat_tolerance_rel = {};
-    Mesh mesh = before;
-    const RemeshReport report = make_delaunay(mesh, options);
-    EXPECT_EQ(report.stop, StopReason::done);
-    EXPECT_EQ(report.splits, 0u);
-    EXPECT_EQ(report.flips, 30u);
-    EXPECT_GT(report.max_deviation, 0);
-    EXPECT_LE(report.max_deviation, report.flat_tolerance);
-    EXPECT_LE(measure_distance(before, mesh).hausdorff.value, report.max_deviation);
-    EXPECT_EQ(check_delaunay(mesh), "");
-    EXPECT_EQ(validate(mesh), "");
+    expect_needles_flipped(before, options, 30);
     // What the user has listed stays, whatever the cost.
     options.feature_edges = {{VertexId(0u), VertexId(1u)}};
     Mesh listed = before;
@@ -264,14 +269,7 @@ TEST(FlatTolerance, ModeFeatureSplitsNoNeedlesByTheThousand) {
     RemeshOptions options;
     options.mode = RemeshMode::feature;
     options.effort = 0;
-    Mesh mesh = before;
-    const RemeshReport report = make_delaunay(mesh, options);
-    EXPECT_EQ(report.stop, StopReason::done);
-    EXPECT_EQ(report.splits, 0u);
-    EXPECT_EQ(report.flips, 1010u);
-    EXPECT_GT(report.max_deviation, 0);
-    EXPECT_LE(report.max_deviation, report.flat_tolerance);
-    EXPECT_EQ(check_delaunay(mesh), "");
+    expect_needles_flipped(before, options, 1010);
     options.flat_tolerance_rel = {FlatRule::given, 0};
     Mesh exact = before;
     EXPECT_GE(make_delaunay(exact, options).splits, 1010u);

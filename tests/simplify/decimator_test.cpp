@@ -57,26 +57,33 @@ TEST(Decimator, GivesUpOnlyWhereNoEdgeCanBeCollapsed) {
     EXPECT_GT(stuck, 10u);
 }
 
+/// Calls `collapse_at(h, star, left, right)` for each `step`-th half-edge that can be collapsed, with the two apexes;
+/// how often.
+template <class CollapseAt>
+std::size_t collapse_some(const Mesh& mesh, std::size_t step, CollapseAt&& collapse_at) {
+    Star star;
+    std::size_t done = 0;
+    for (std::size_t i = 0; i < mesh.halfedge_count(); i += step) {
+        const HalfedgeId h(i);
+        if (!mesh.origin(h).valid() || !gather(mesh, h, 1, star) || !can_collapse(mesh, h)) continue;
+        const HalfedgeId t = mesh.twin(h);
+        collapse_at(h, star, mesh.apex(h), t.valid() ? mesh.apex(t) : VertexId());
+        ++done;
+    }
+    return done;
+}
+
 /// What is brought up to date collapse by collapse is what is found afresh.
 TEST(VertexWeights, FollowACollapse) {
     for (const char* name : {"noisy-sphere", "terrain"}) {
         Mesh mesh = delaunay_sample(name, 600);
         const Tuning tuning;
         VertexWeights weights(mesh, 1, tuning);
-        Star star;
-        std::size_t done = 0;
-        for (std::size_t i = 0; i < mesh.halfedge_count(); i += 7) {
-            const HalfedgeId h(i);
-            if (!mesh.origin(h).valid() || !gather(mesh, h, 1, star) || !can_collapse(mesh, h)) continue;
-            const HalfedgeId t = mesh.twin(h);
-            const VertexId left = mesh.apex(h);
-            const VertexId right = t.valid() ? mesh.apex(t) : VertexId();
-            const Vec3 w = star.v_point * 0.5;
-            collapse(mesh, h, star.frame.to_mesh(w));
+        const auto halve = [&](HalfedgeId h, const Star& star, VertexId left, VertexId right) {
+            collapse(mesh, h, star.frame.to_mesh(star.v_point * 0.5));
             weights.replace_star(star, star.frame.to_local(mesh.point(star.u)), left, right);
-            ++done;
-        }
-        EXPECT_GT(done, 50u);
+        };
+        EXPECT_GT(collapse_some(mesh, 7, halve), 50u);
         const VertexWeights fresh(mesh, 1, tuning);
         for (std::size_t i = 0; i < mesh.halfedge_count(); ++i) {
             const HalfedgeId h(i);
@@ -99,14 +106,8 @@ TEST(VertexWeights, ThatKeepOnlyWhatHasChangedAreTheSame) {
         const Tuning tuning;
         VertexWeights all(mesh, 1, tuning);
         VertexWeights changed(mesh, 1, tuning, VertexWeights::Kept::changed);
-        Star star;
         std::size_t done = 0;
-        for (std::size_t i = 0; i < mesh.halfedge_count(); i += 17) {
-            const HalfedgeId h(i);
-            if (!mesh.origin(h).valid() || !gather(mesh, h, 1, star) || !can_collapse(mesh, h)) continue;
-            const HalfedgeId t = mesh.twin(h);
-            const VertexId left = mesh.apex(h);
-            const VertexId right = t.valid() ? mesh.apex(t) : VertexId();
+        const auto halve = [&](HalfedgeId h, const Star& star, VertexId left, VertexId right) {
             const Vec3 w = star.v_point * 0.5;
             changed.prepare(star);
             for (VertexWeights* weights : {&all, &changed})
@@ -116,12 +117,12 @@ TEST(VertexWeights, ThatKeepOnlyWhatHasChangedAreTheSame) {
                 weights->forget(star.v);
                 weights->replace_star(star, star.frame.to_local(mesh.point(star.u)), left, right);
             }
-            if (++done % 20 != 0) continue;
+            if (++done % 20 != 0) return;
             const CompactMap map = compact(mesh);
             all.renumber(map.vertex);
             changed.close_gaps(map.vertex);
-        }
-        EXPECT_GT(done, 30u);
+        };
+        EXPECT_GT(collapse_some(mesh, 17, halve), 30u);
         const auto expect_same = [](const Quadric& a, const Quadric& b) {
             EXPECT_EQ(a.xx, b.xx);
             EXPECT_EQ(a.yz, b.yz);
