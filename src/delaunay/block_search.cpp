@@ -34,6 +34,7 @@ public:
         SplitSearch search(model_, seed);
         search.set_open(find_open());
         search.be_quiet();
+        search.be_patient(options.patience);
         const auto work = static_cast<std::uint64_t>(options.work * static_cast<double>(free_points_));
         if (options.polishes) {
             search.spread(work);

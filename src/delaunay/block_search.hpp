@@ -13,6 +13,7 @@ struct BlockSearchOptions {
     double work = 0;                  ///< for each point,
     bool polishes = false;            ///< the angles, instead of taking points away
     std::size_t block_points = 2000;  ///< at most in a block
+    std::uint64_t patience = 1;       ///< of the search in a block
 };
 
 /// One round of what SplitSearch::improve does; tries to close edges that were given up, where they lie within a block.

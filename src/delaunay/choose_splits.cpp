@@ -43,12 +43,19 @@ constexpr std::size_t few_edges = 200;
 constexpr std::size_t hard = 2;
 constexpr int most_starts = 2;
 constexpr double start_share = 0.6;  ///< of the work, for each start
+constexpr double long_share = 0.5;   ///< of more work than by default, for a search that goes on
+constexpr int most_useless = 2;      ///< searches in a row
 /// More for the search where no edge stayed open for long.
 constexpr double spare_share = 0.6;
 /// And for as long as a point that is saved takes less work than this.
 constexpr double cheap_point = 250e3;
 constexpr double extra_share = 0.1;
 constexpr int most_extra = 4;
+
+/// By default the search ends where little comes of it. Whoever asks for more effort wants that little.
+std::uint64_t patience_of(int effort) {
+    return effort <= default_effort ? 1 : std::uint64_t{1} << (effort - default_effort);
+}
 
 }  // namespace
 
@@ -107,11 +114,14 @@ double SplitChooser::full_work() const {
 void SplitChooser::search(const Context* context) {
     const double full = full_work();
     const bool in_blocks = bad_.size() >= many_edges;
+    const bool goes_on = options_.effort > default_effort && !in_blocks;
+    const double first = goes_on ? default_work() : full;
     if (options_.effort > 0 && bad_.size() <= few_edges) {
-        find_best_places(full, context);
+        find_best_places(first, context);
     } else {
-        find_places(full, context);
+        find_places(first, context);
     }
+    if (goes_on) go_on(full - first, context);
     if (is_cancelled(context) || is_hopeless()) return;
     if (options_.effort > 0) {
         search_.thin_rings(static_cast<std::uint64_t>(0.1 * full));
@@ -186,6 +196,16 @@ void SplitChooser::improve(double full, double work, const Context* context) {
     }
 }
 
+/// Of each region the better one, or of all, if edges of the other solution are open.
+void SplitChooser::keep_better(const std::vector<PlacedPoint>& other, const std::vector<std::uint32_t>& open) {
+    if (open.empty()) {
+        delmesh::take_better_regions(model_, search_.open(), placed_points(model_), other);
+        return put(placed_points(model_), {});
+    }
+    const auto worth = [](std::size_t open_edges, std::size_t count) { return std::pair(open_edges, count); };
+    if (worth(open.size(), other.size()) < worth(search_.open().size(), model_.point_count())) put(other, open);
+}
+
 /// Where few edges need many points, much depends on luck: it is tried more than once.
 void SplitChooser::find_best_places(double full, const Context* context) {
     find_places(start_share * full, context);
@@ -195,10 +215,32 @@ void SplitChooser::find_best_places(double full, const Context* context) {
         const std::vector<std::uint32_t> open = search_.open();
         put({}, {});
         find_places(start_share * full, context);
-        const auto worth = [](std::size_t open_edges, std::size_t count) { return std::pair(open_edges, count); };
-        if (worth(open.size(), points.size()) < worth(search_.open().size(), model_.point_count())) put(points, open);
+        keep_better(points, open);
     }
     if (!is_cancelled(context)) search_.improve(static_cast<std::uint64_t>((1 - start_share) * full), context);
+}
+
+/// For those who ask for more effort. Half of the work goes into the same search. Then new ones begin from nothing, and
+/// of each region the better one is kept, as long as that pays; where few edges must be split, luck is all that helps.
+void SplitChooser::go_on(double work, const Context* context) {
+    const double end = static_cast<double>(model_.work()) + work;
+    const auto left = [&] { return end - static_cast<double>(model_.work()); };
+    if (search_.open().empty() && model_.point_count() == bad_.size()) return;  // no method needs fewer
+    search_.be_patient(patience_of(options_.effort));
+    search_.improve(static_cast<std::uint64_t>(long_share * work), context);
+    search_.be_patient(1);
+    const bool is_small = bad_.size() <= few_edges;
+    const double once = is_small ? start_share * default_work() : default_work();
+    for (int useless = 0; (is_small || useless < most_useless) && left() > 0 && !is_cancelled(context);) {
+        const std::vector<PlacedPoint> best = placed_points(model_);
+        const std::vector<std::uint32_t> open = search_.open();
+        put({}, {});
+        find_places(std::min(left(), once), context);
+        keep_better(best, open);
+        useless = model_.point_count() < best.size() ? 0 : useless + 1;
+    }
+    search_.be_patient(patience_of(options_.effort));
+    if (left() > 0) search_.improve(static_cast<std::uint64_t>(left()), context);
 }
 
 /// Replaces all points, and all edges that are known not to be Delaunay.
@@ -242,6 +284,7 @@ void SplitChooser::improve_blocks_once(bool polish, const Context* context) {
     BlockSearchOptions options;
     options.seed = options_.seed;
     options.polishes = polish;
+    options.patience = patience_of(options_.effort);
     options.work = (polish ? spread_share : round_share) * all / static_cast<double>(model_.point_count());
     shares_done_ += static_cast<double>(improve_in_blocks(model_, round_++, options, context)) / all;
     search_.drop_closed();

@@ -76,6 +76,8 @@ private:
     [[nodiscard]] bool is_hopeless() const;
     void find_places(double full, const Context* context);
     void find_best_places(double full, const Context* context);
+    void keep_better(const std::vector<PlacedPoint>& other, const std::vector<std::uint32_t>& open);
+    void go_on(double work, const Context* context);
     void close(double full);
     void put(std::span<const PlacedPoint> points, const std::vector<std::uint32_t>& open);
     void spread(double work, bool in_blocks, const Context* context);

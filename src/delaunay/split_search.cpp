@@ -333,8 +333,9 @@ void SplitSearch::improve(std::uint64_t work, const Context* context) {
     limit_work(work);
     const std::uint64_t start = model_.work();
     const std::uint64_t points_now = model_.point_count();
-    const std::uint64_t stretch = std::max(
-        {work_per_point * points_now, std::min(small_work_per_point * points_now, small_stretch), least_stretch});
+    const std::uint64_t stretch =
+        patience_ * std::max({work_per_point * points_now, std::min(small_work_per_point * points_now, small_stretch),
+                              least_stretch});
     std::uint64_t check = start + stretch;
     std::size_t points_then = model_.point_count() + open_.size();
     std::size_t since = 0;

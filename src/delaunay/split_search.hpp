@@ -61,6 +61,9 @@ public:
     /// Reports no progress from now on, as a search on another thread must.
     void be_quiet() { is_quiet_ = true; }
 
+    /// `improve` looks at so many times as long a stretch of work before it finds that little comes of it.
+    void be_patient(std::uint64_t times) { patience_ = times; }
+
     /// Takes these edges, which are not Delaunay, for open ones.
     void set_open(const std::vector<std::uint32_t>& edges) {
         open_ = edges;
@@ -131,6 +134,7 @@ private:
     SplitModel& model_;
     bool is_quiet_ = false;
     bool is_quick_ = false;
+    std::uint64_t patience_ = 1;
     Random random_;
     SplitRepair repair_;
     SplitTargets targets_;

@@ -90,6 +90,19 @@ TEST(Effort, NeverAddsPoints) {
     }
 }
 
+TEST(Effort, AboveTheDefaultFindsWhatTheDefaultMisses) {
+    const Mesh before(make_sample("plate", 300));
+    std::array<std::size_t, 2> splits{};
+    for (const std::size_t more : {0, 1}) {
+        Mesh mesh = before;
+        const RemeshReport report = make_delaunay(mesh, options_of(SplitPlacement::fewest, 3 + more));
+        ASSERT_EQ(report.stop, StopReason::done);
+        EXPECT_EQ(check_delaunay(mesh), "");
+        splits[more] = report.splits;
+    }
+    EXPECT_LT(splits[1], splits[0]);
+}
+
 TEST(Effort, ZeroTakesHalfOfTheShellsOnRoughSurfaces) {
     for (const char* sample : {"noisy-sphere", "noisy-surface"}) {
         const Mesh before(make_sample(sample, 2000));
