@@ -3,6 +3,7 @@
 #include "delmesh/mesh/edits.hpp"
 #include "delmesh/mesh/rounding.hpp"
 #include "simplify/polish.hpp"
+#include "simplify/tangle.hpp"
 #include "simplify/walk.hpp"
 
 #include <algorithm>
@@ -47,10 +48,17 @@ void Decimator::enqueue_all() {
     stamp_.resize(mesh_.halfedge_count());
     watches_.reset(mesh_.vertex_count());
     raised2_ = 0;
+    // Where handles have run out of vertices nearly all edges are like that, and all are asked again after each shake.
+    const std::vector<VertexId> third = shaken_ ? find_tangles(mesh_) : std::vector<VertexId>();
     for (std::size_t i = 0; i < mesh_.halfedge_count(); ++i) {
         const HalfedgeId h(i);
         forget(h);
-        if (mesh_.origin(h).valid() && mesh_.names_edge(h)) queue_.append(key_of(h), h.value());
+        if (!mesh_.origin(h).valid() || !mesh_.names_edge(h)) continue;
+        ++counts_.asked;
+        if (shaken_ && third[i].valid())
+            watches_.add(third[i], wait(h, Blocker::topology));
+        else
+            queue_.append(key_of(h), h.value());
     }
     queue_.heapify();
 }
@@ -91,6 +99,7 @@ void Decimator::leave_queue() {
 std::size_t Decimator::refit(const RefitTuning& tuning, const Context* context) {
     const auto settle = [this](const Vec3& w) { return settled(w); };
     const auto moved = [this](VertexId v, const Vec3& w) { move_history(v, w); };
+    samples_->freshen(mesh_, scale_);
     Refitter refitter(mesh_, *samples_, placer_, scale_, settle, moved);
     const std::size_t moves = refitter.run(tuning, allowed2(), context);
     // Large flat parts say nothing about what is usual elsewhere.
@@ -135,6 +144,7 @@ std::vector<Id> fill_gaps(const Mesh& mesh, std::size_t all, std::size_t count) 
 
 void Decimator::reduce(std::size_t vertices, const Context* context) {
     const auto settle = [this](const Vec3& w) { return settled(w); };
+    samples_->freshen(mesh_, scale_);
     Polisher polisher(mesh_, *samples_, placer_, weights_, tuning_, scale_, settle);
     const auto moved = [&](VertexId v, const Vec3& w) { move_history(v, w), polisher.touch(v); };
     Refitter refitter(mesh_, *samples_, placer_, scale_, settle, moved);
@@ -155,6 +165,7 @@ std::size_t Decimator::polish(const Context* context) {
     const std::size_t vertices = mesh_.vertex_count();
     const std::size_t faces = mesh_.face_count();
     const auto settle = [this](const Vec3& w) { return settled(w); };
+    samples_->freshen(mesh_, scale_);
     Polisher polisher(mesh_, *samples_, placer_, weights_, tuning_, scale_, settle);
     const auto moved = [&](VertexId v, const Vec3& w) { move_history(v, w), polisher.touch(v); };
     Refitter refitter(mesh_, *samples_, placer_, scale_, settle, moved);
@@ -177,6 +188,7 @@ std::size_t Decimator::polish(const Context* context) {
 
 void Decimator::loosen(std::uint64_t seed, double freedom) {
     placer_.look_harder();
+    shaken_ = true;
     const auto settle = [this](const Vec3& w) { return settled(w); };
     const auto moved = [this](VertexId v, const Vec3& w) { move_history(v, w); };
     Loosener loosener(mesh_, samples_ ? &*samples_ : nullptr, scale_, settle, moved);
@@ -313,6 +325,7 @@ void Decimator::process(const Queue::Entry& entry) {
     const Quadric merged = weights_.merged_history(star_, local);
     if (exceeds_error(merged)) return block(h, Blocker::error);
     if (samples_) {
+        samples_->freshen(mesh_, scale_, star_);
         samples_->gather(star_);
         const SampleError after = samples_->measure(star_, local);
         const double allowed = std::max(allowed2(), samples_->present().forward);

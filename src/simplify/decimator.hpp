@@ -31,6 +31,7 @@ struct DecimatorLimits {
 
 struct DecimatorCounts {
     std::size_t collapses = 0, popped = 0, requeued = 0, woken = 0, parked = 0;
+    std::size_t asked = 0;  ///< edges, each time all have a turn
     std::array<std::size_t, blocker_count> blocked{};
 };
 
@@ -78,6 +79,11 @@ public:
     [[nodiscard]] std::array<std::size_t, blocker_count> count_blocked() const;
     [[nodiscard]] const DecimatorCounts& counts() const { return counts_; }
     [[nodiscard]] const Placer& placer() const { return placer_; }
+    /// What edges and samples took so far, in places tried. Counts where vertices have very many faces, or faces very
+    /// many samples.
+    [[nodiscard]] std::size_t work_beside_places() const {
+        return counts_.asked / 2 + (samples_ ? samples_->found() / 4 : 0);
+    }
 
 private:
     /// An edge that waits for something to change; outdated if its stamp is.
@@ -132,6 +138,7 @@ private:
     std::vector<Parked> parked_;  ///< a heap, the smallest distance first
     Queue queue_;
     bool is_outdated_ = true;  ///< the queue
+    bool shaken_ = false;      ///< from the first call of `loosen` on
     std::optional<SurfaceSamples> samples_;
     std::size_t guarded_ = 0;
     std::size_t retried_ = 0;  ///< collapses made when all edges had another turn

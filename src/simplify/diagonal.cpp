@@ -54,10 +54,11 @@ bool keeps_delaunay(const Mesh& mesh, const Quad& quad) {
 }  // namespace
 
 bool can_flip_delaunay(const Mesh& mesh, double scale, HalfedgeId h) {
-    if (!can_flip(mesh, h)) return false;
     const HalfedgeId t = mesh.twin(h);
+    if (!t.valid()) return false;
     const Quad quad{h, t, mesh.origin(h), mesh.target(h), mesh.apex(h), mesh.apex(t)};
-    return !turns_over(mesh, scale, quad) && keeps_delaunay(mesh, quad);
+    // Around vertices with many faces, whether the others are joined takes longest.
+    return !turns_over(mesh, scale, quad) && keeps_delaunay(mesh, quad) && can_flip(mesh, h);
 }
 
 bool turns_over(const Mesh& mesh, double scale, HalfedgeId h) {

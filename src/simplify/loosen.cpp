@@ -4,12 +4,34 @@
 #include "simplify/diagonal.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace delmesh {
+namespace {
+
+/// How far apart the two diagonals are that a flip exchanges, on the lines through them.
+double height_of_flip(const Star& star) {
+    const Vec3& p = star.ring[0].point;
+    const Vec3& q = star.ring[2].point;
+    const Vec3 n = cross(q - p, star.ring[1].point);
+    const double length2 = squared_norm(n);
+    return length2 > 0 ? std::abs(dot(p, n)) / std::sqrt(length2) : std::numeric_limits<double>::infinity();
+}
+
+/// Samples slide as long as half of what is allowed is not reached: the surface has to stay near them, too.
+double least_watched(double allowed2) {
+    return 0.5 * std::sqrt(allowed2);
+}
+
+}  // namespace
+
 bool Loosener::flip_edge(HalfedgeId h, double allowed2) {
     if (!can_flip_delaunay(mesh_, scale_, h)) return false;
     if (samples_ != nullptr) {
         gather_flipped(mesh_, h, scale_, star_);
+        if (samples_->let_slide(star_, height_of_flip(star_), least_watched(allowed2))) return flip(mesh_, h), true;
+        samples_->freshen(mesh_, scale_, star_);
         samples_->gather(star_);
         const double before = samples_->present().forward;
         if (samples_->measure(star_, {}).forward > std::max(before, allowed2)) return false;
@@ -31,6 +53,11 @@ Vec3 Loosener::draw_place() {
     return first * far + second * (far * random_.uniform());
 }
 
+void Loosener::move(VertexId v, const Vec3& to) {
+    moved_(v, to);
+    mesh_.set_point(v, to);
+}
+
 bool Loosener::move_vertex(VertexId v, double allowed2) {
     gather(mesh_, v, scale_, star_);
     const Vec3 w = draw_place();
@@ -38,14 +65,15 @@ bool Loosener::move_vertex(VertexId v, double allowed2) {
     if (find_blocker(mesh_, star_, w, first) != Blocker::none) return false;
     const Vec3 to = settle_(star_.frame.to_mesh(w));
     if (to == mesh_.point(v) || !delmesh::keeps_delaunay(mesh_, star_, to)) return false;
-    if (samples_ != nullptr) {
-        samples_->gather(star_);
-        const double before = std::max(samples_->present().forward, samples_->measure_backward(star_, {}));
-        if (samples_->measure(star_, star_.frame.to_local(to)).worst() > std::max(before, allowed2)) return false;
-    }
-    moved_(v, to);
-    mesh_.set_point(v, to);
-    if (samples_ != nullptr) samples_->commit(star_);
+    if (samples_ == nullptr) return move(v, to), true;
+    const Vec3 there = star_.frame.to_local(to);
+    if (samples_->let_slide(star_, std::sqrt(squared_norm(there)), least_watched(allowed2))) return move(v, to), true;
+    samples_->freshen(mesh_, scale_, star_);
+    samples_->gather(star_);
+    const double before = std::max(samples_->present().forward, samples_->measure_backward(star_, {}));
+    if (samples_->measure(star_, there).worst() > std::max(before, allowed2)) return false;
+    move(v, to);
+    samples_->commit(star_);
     return true;
 }
 

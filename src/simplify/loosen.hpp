@@ -37,6 +37,7 @@ public:
 
 private:
     bool flip_edge(HalfedgeId h, double allowed2);
+    void move(VertexId v, const Vec3& to);
     bool move_vertex(VertexId v, double allowed2);
     [[nodiscard]] Vec3 draw_place();
 

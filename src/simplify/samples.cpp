@@ -90,6 +90,80 @@ void SurfaceSamples::renumber(const std::vector<FaceId>& ids, std::size_t faces)
     first_.swap(first);
 }
 
+namespace {
+
+template <class Visit>
+void each_face(const Star& star, Visit&& visit) {
+    for (std::size_t i = 0; i < star.face_count(); ++i) visit(star.ring[i].face);
+    for (int i = 0; i < star.dying_count; ++i) visit(star.dying_face[i]);
+}
+
+}  // namespace
+
+namespace {
+
+/// Where a search for the nearest face begins: most often it ends there.
+VertexId nearest_corner(const Mesh& mesh, double scale, FaceId f, const Vec3& point) {
+    const auto corners = mesh.corners().subspan(3 * f.index(), 3);
+    const auto distance2 = [&](VertexId v) { return squared_norm((mesh.point(v) - point) * scale); };
+    return *std::min_element(corners.begin(), corners.end(),
+                             [&](VertexId a, VertexId b) { return distance2(a) < distance2(b); });
+}
+
+}  // namespace
+
+/// Of the samples of a face, how far off the farthest may be.
+double SurfaceSamples::reach(FaceId f) const {
+    if (slid_[f.index()] >= 0) return static_cast<double>(slid_[f.index()]);
+    float farthest2 = 0;
+    for (std::uint32_t i = first_[f.index()]; i != none; i = samples_[i].next)
+        farthest2 = std::max(farthest2, samples_[i].distance2);
+    return std::sqrt(static_cast<double>(farthest2));
+}
+
+bool SurfaceSamples::let_slide(const Star& star, double by, double most) {
+    if (!(by < most)) return false;
+    slid_.resize(first_.size(), -1);
+    slides_.clear();
+    bool fits = true;
+    each_face(star, [&](FaceId f) {
+        slides_.push_back(reach(f) + by);
+        fits = fits && slides_.back() <= most;
+    });
+    if (!fits) return false;
+    std::size_t i = 0;
+    each_face(star, [&](FaceId f) { slid_[f.index()] = static_cast<float>(slides_[i++]); });
+    return true;
+}
+
+void SurfaceSamples::freshen(const Mesh& mesh, double scale, FaceId f) {
+    if (slid_[f.index()] < 0) return;
+    std::uint32_t next = std::exchange(first_[f.index()], none);
+    slid_[f.index()] = -1;
+    while (next != none) {
+        const std::uint32_t i = next;
+        Sample& s = samples_[i];
+        next = s.next;
+        sum_ -= static_cast<double>(s.weight) * static_cast<double>(s.distance2);
+        const FaceId nearest = find_nearest(mesh, scale, nearest_corner(mesh, scale, f, s.point), s.point, s.distance2);
+        sum_ += static_cast<double>(s.weight) * static_cast<double>(s.distance2);
+        s.next = std::exchange(first_[nearest.index()], i);
+        float& slid = slid_[nearest.index()];
+        if (slid >= 0) slid = std::max(slid, std::sqrt(s.distance2));
+        ++found_;
+    }
+}
+
+void SurfaceSamples::freshen(const Mesh& mesh, double scale, const Star& star) {
+    if (slid_.empty()) return;
+    each_face(star, [&](FaceId f) { freshen(mesh, scale, f); });
+}
+
+void SurfaceSamples::freshen(const Mesh& mesh, double scale) {
+    for (std::size_t f = 0; f < slid_.size(); ++f) freshen(mesh, scale, FaceId(f));
+    slid_.clear();
+}
+
 void SurfaceSamples::gather(const Star& star) {
     members_.clear();
     present_ = {};
@@ -245,6 +319,7 @@ void SurfaceSamples::attach(Member& member, std::size_t faces, const Vec3& from_
 
 SampleError SurfaceSamples::measure_forward(const Star& star, const Vec3& w) {
     prepare(star, w);
+    found_ += members_.size();
     last_ = {};
     for (Member& m : members_) {
         m.face = std::min<std::uint32_t>(m.face, static_cast<std::uint32_t>(star.face_count() - 1));
@@ -319,8 +394,7 @@ double SurfaceSamples::measure_backward(const Mesh& mesh, double scale, std::spa
 }
 
 void SurfaceSamples::commit(const Star& star) {
-    for (std::size_t i = 0; i < star.face_count(); ++i) first_[star.ring[i].face.index()] = none;
-    for (int i = 0; i < star.dying_count; ++i) first_[star.dying_face[i].index()] = none;
+    each_face(star, [&](FaceId f) { first_[f.index()] = none; });
     for (const Member& m : members_) {
         Sample& s = samples_[m.sample];
         s.distance2 = static_cast<float>(m.distance2);

@@ -45,6 +45,17 @@ public:
         double distance2 = 0;
     };
 
+    /// The surface of the star is about to move by no more than `by`. False if samples might get farther from it than
+    /// `most` so. Otherwise they stay with their faces, but how far off they are is not known until they are
+    /// freshened: much cheaper than to find them anew with each move.
+    [[nodiscard]] bool let_slide(const Star& star, double by, double most);
+    /// Finds what slid with the faces of the star anew, which must be asked for before it is gathered.
+    void freshen(const Mesh& mesh, double scale, const Star& star);
+    /// The same for all, which must be asked for before anything but stars.
+    void freshen(const Mesh& mesh, double scale);
+    /// How often the nearest face of a sample has been looked for.
+    [[nodiscard]] std::size_t found() const { return found_; }
+
     /// Takes the samples of the star in hand.
     void gather(const Star& star);
     /// The mesh has so many faces now. New ones have no samples yet.
@@ -109,6 +120,8 @@ private:
     [[nodiscard]] static Sample sample_of(const SampleSource& source, std::size_t i);
     [[nodiscard]] static FaceId find_nearest(const Mesh& mesh, double scale, VertexId v, const Vec3& point,
                                              float& distance2);
+    [[nodiscard]] double reach(FaceId f) const;
+    void freshen(const Mesh& mesh, double scale, FaceId f);
     void prepare(const Star& star, const Vec3& w);
     void attach(Member& member, std::size_t faces, const Vec3& from_centre) const;
     [[nodiscard]] double distance2_to_surface(const Vec3& x) const;
@@ -120,6 +133,9 @@ private:
     std::optional<SampleSource> source_;  ///< what is to be attached
     std::vector<Sample> samples_;
     std::vector<std::uint32_t> first_;  ///< per face
+    std::vector<float> slid_;     ///< per face, while any slide: no sample of it is farther off; negative: none slides
+    std::vector<double> slides_;  ///< what they are to become
+    std::size_t found_ = 0;
     std::vector<Member> members_;
     std::vector<Spoke> spokes_;
     struct Triangle {

@@ -145,13 +145,14 @@ std::size_t reduce_from(std::size_t target, const Tuning& tuning) {
 }
 
 /// Where nothing else helps: shakes the mesh until edges come free, more and more strongly; now and then a refit takes
-/// back what that has spoiled. Ends after `most` places tried and vertices looked at.
+/// back what that has spoiled. Ends after `most` places tried, vertices, edges and samples looked at.
 void shake_free(Decimator& decimator, std::size_t target, std::size_t most, const Context* context) {
     const std::size_t patience = 200'000 + 20 * decimator.vertices();  // places tried, vertices looked at
     constexpr double gentle = 4;
     constexpr double strong = 1e4;
     std::size_t work = 0;
     std::size_t last_gain = 0;
+    const std::size_t begun = decimator.work_beside_places();
     double freedom = gentle;
     for (std::uint64_t seed = 1; decimator.vertices() > target && !is_cancelled(context); ++seed) {
         const std::size_t before = decimator.vertices();
@@ -166,7 +167,8 @@ void shake_free(Decimator& decimator, std::size_t target, std::size_t most, cons
             freedom = gentle;
             if (decimator.has_samples()) (void)decimator.refit({.rounds = 1}, context);
         }
-        if (work > last_gain + patience || work > most) break;
+        const std::size_t beside = decimator.work_beside_places() - begun;
+        if (work > last_gain + patience || work + beside > most) break;
     }
 }
 

@@ -222,6 +222,48 @@ TEST_P(SamplesOf, AreFoundAgainAfterSweeps) {
     EXPECT_GT(samples.mean2(), 0);
 }
 
+/// Nothing is looked at as long as it can not get too far off, and then it has not.
+TEST_P(SamplesOf, SlideNoFartherThanAllowed) {
+    Mesh mesh = delaunay_sample(GetParam(), 600);
+    SurfaceSamples samples(mesh, mesh.vertex_count(), 1, 1'000'000);
+    test::Random random(5);
+    Star star;
+    gather(mesh, VertexId(0), 1, star);
+    const double most = 0.1 * norm(star.ring[0].point);
+    std::size_t slid = 0;
+    std::size_t refused = 0;
+    for (int round = 0; round < 8; ++round) {
+        for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+            gather(mesh, VertexId(v), 1, star);
+            const auto shift = [&] { return random.real(-0.1, 0.1) * most; };
+            const Vec3 w{shift(), shift(), shift()};
+            const bool slides = samples.let_slide(star, norm(w), most);
+            ++(slides ? slid : refused);
+            if (slides) mesh.set_point(VertexId(v), mesh.point(VertexId(v)) + w);
+        }
+    }
+    EXPECT_EQ(samples.found(), 0u);
+    EXPECT_GT(slid, mesh.vertex_count());
+    EXPECT_GT(refused, 100u);
+    EXPECT_EQ(samples.sum(), 0);  // as it was
+    samples.freshen(mesh, 1);
+    EXPECT_GT(samples.found(), mesh.vertex_count());
+    EXPECT_GT(samples.sum(), 0);
+    double sum = 0;
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) sum += samples.error(FaceId(f));
+    EXPECT_NEAR(sum, samples.sum(), 1e-9 * sum);
+    std::size_t found = 0;
+    for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+        gather(mesh, VertexId(v), 1, star);
+        samples.gather(star);
+        found += samples.members().size();
+        EXPECT_LE(samples.present().forward, most * most * (1 + 1e-6));
+        const double noted = samples.present().sum;
+        EXPECT_LE(samples.measure(star, {}).sum, noted * (1 + 1e-5) + 1e-15);
+    }
+    EXPECT_EQ(found, 3 * (mesh.vertex_count() + mesh.face_count()));  // none is lost
+}
+
 INSTANTIATE_TEST_SUITE_P(Shapes, SamplesOf, testing::Values("noisy-sphere", "terrain", "torus"));
 
 TEST(Samples, GuardingKeepsTheWorstOneClose) {
