@@ -98,10 +98,6 @@ void each_face(const Star& star, Visit&& visit) {
     for (int i = 0; i < star.dying_count; ++i) visit(star.dying_face[i]);
 }
 
-}  // namespace
-
-namespace {
-
 /// Where a search for the nearest face begins: most often it ends there.
 VertexId nearest_corner(const Mesh& mesh, double scale, FaceId f, const Vec3& point) {
     const auto corners = mesh.corners().subspan(3 * f.index(), 3);
