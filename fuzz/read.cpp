@@ -3,6 +3,8 @@
 #include "delmesh/io/read.hpp"
 
 #include "delmesh/base/error.hpp"
+#include "delmesh/mesh/shapes.hpp"
+#include "io/packed_gltf.hpp"
 #include "io/packing.hpp"
 #include "io/scene_files.hpp"
 #include "io/wide_text.hpp"
@@ -55,6 +57,8 @@ std::vector<std::string> ply_seeds() {
 }
 
 std::vector<std::string> gltf_seeds() {
+    const PolygonSoup tetrahedron = test::packed_tetrahedron();
+    const PolygonSoup torus = make_sample("torus", 24);
     const std::string bytes = test::tetrahedron_buffer();
     std::string sparse = test::tetrahedron_json("[{\"mesh\":0,\"matrix\":[0,1,0,0,1,0,0,0,0,0,1,0,5,6,7,1]}]", 2);
     sparse.insert(sparse.find("\"bufferView\":0,"),
@@ -64,7 +68,13 @@ std::vector<std::string> gltf_seeds() {
         "[{\"children\":[1],\"scale\":[1,2,-3],\"rotation\":[0,0,0,1]},{\"mesh\":0,\"translation\":[1,2,3]}]";
     return {test::glb(test::tetrahedron_json(nodes, 1, {}, "\"scene\":0,\"scenes\":[{\"nodes\":[0]}],"), bytes),
             test::tetrahedron_json("[{\"mesh\":0}]", 3, "data:a/b;base64," + test::base64(bytes)),
-            test::glb(sparse, bytes)};
+            test::glb(sparse, bytes),
+            test::meshopt_glb(test::meshopt_tetrahedron(true)),
+            test::meshopt_glb(test::meshopt_tetrahedron(false, "EXPONENTIAL")),
+            test::draco_glb(test::draco_data(tetrahedron)),
+            test::draco_glb(test::draco_data(tetrahedron, {draco::MESH_SEQUENTIAL_ENCODING})),
+            test::draco_glb(test::draco_data(torus, {draco::MESH_EDGEBREAKER_ENCODING, 0, 11, true})),
+            test::draco_glb(test::draco_data(torus, {draco::MESH_EDGEBREAKER_ENCODING, 10, 0, true}))};
 }
 
 /// Model files; `in_package` puts them where they are read, since changes in packed data only show damage.

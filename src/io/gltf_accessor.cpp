@@ -12,33 +12,6 @@ namespace {
 
 constexpr auto order = std::endian::little;
 
-/// The numbers that glTF has for types, as in OpenGL.
-enum ComponentType : std::uint64_t {
-    type_byte = 5120,
-    type_unsigned_byte = 5121,
-    type_short = 5122,
-    type_unsigned_short = 5123,
-    type_unsigned_int = 5125,
-    type_float = 5126,
-};
-
-/// In bytes; 0 for what is no type.
-std::size_t size_of_component(std::uint64_t type) {
-    switch (type) {
-        case type_byte:
-        case type_unsigned_byte:
-            return 1;
-        case type_short:
-        case type_unsigned_short:
-            return 2;
-        case type_unsigned_int:
-        case type_float:
-            return 4;
-        default:
-            return 0;
-    }
-}
-
 bool is_index_type(std::uint64_t type) {
     return type == type_unsigned_byte || type == type_unsigned_short || type == type_unsigned_int;
 }
@@ -75,27 +48,37 @@ std::uint32_t load_index(const char* from, std::uint64_t type) {
 
 /// `count` elements of `size` bytes in the buffer view that `json` names, from its offset on.
 GltfRecords find_records(GltfFile& file, const Json& json, std::uint64_t count, std::size_t size) {
-    const Json& view = file.element("bufferViews", file.number(json, "bufferView"));
-    const std::string_view buffer = file.buffer(file.number(view, "buffer"));
-    const std::uint64_t begin = file.find_number(view, "byteOffset").value_or(0);
-    const std::uint64_t length = file.number(view, "byteLength");
-    if (begin > buffer.size() || length > buffer.size() - begin)
-        file.fail(fmt::format("expected {} bytes of a glTF buffer view from byte {}, found a buffer of {}", length,
-                              begin, buffer.size()));
+    const GltfView view = file.buffer_view(file.number(json, "bufferView"));
+    const std::uint64_t length = view.bytes.size();
     const std::uint64_t offset = file.find_number(json, "byteOffset").value_or(0);
-    const std::uint64_t written_stride = file.find_number(view, "byteStride").value_or(0);
-    const std::uint64_t stride = written_stride != 0 ? written_stride : size;
+    const std::uint64_t stride = view.stride != 0 ? view.stride : size;
     const bool fits = count == 0 || (stride >= size && offset <= length && size <= length - offset &&
                                      count - 1 <= (length - offset - size) / stride);
     if (!fits)
         file.fail(fmt::format("expected {} glTF elements of {} bytes from byte {}, found a buffer view of {} bytes",
                               count, size, offset, length));
-    return {buffer.data() + begin + (count == 0 ? 0 : offset), static_cast<std::size_t>(stride)};
+    return {view.bytes.data() + (count == 0 ? 0 : offset), static_cast<std::size_t>(stride)};
 }
 
 }  // namespace
 
-GltfPositions::GltfPositions(GltfFile& file, std::uint64_t number) {
+std::size_t size_of_component(std::uint64_t type) {
+    switch (type) {
+        case type_byte:
+        case type_unsigned_byte:
+            return 1;
+        case type_short:
+        case type_unsigned_short:
+            return 2;
+        case type_unsigned_int:
+        case type_float:
+            return 4;
+        default:
+            return 0;
+    }
+}
+
+void GltfPositions::read_type(GltfFile& file, std::uint64_t number) {
     const Json& json = file.element("accessors", number);
     count_ = file.number(json, "count");
     type_ = file.number(json, "componentType");
@@ -105,6 +88,11 @@ GltfPositions::GltfPositions(GltfFile& file, std::uint64_t number) {
     if (file.text(json, "type") != "VEC3" || component_size_ == 0)
         file.fail(fmt::format(
             "expected three floats or short integers as glTF position, found accessor {} of another type", number));
+}
+
+GltfPositions::GltfPositions(GltfFile& file, std::uint64_t number) {
+    read_type(file, number);
+    const Json& json = file.element("accessors", number);
     const Json* const sparse = json.find("sparse");
     if (json.find("bufferView") != nullptr) {
         records_ = find_records(file, json, count_, 3 * component_size_);
@@ -112,6 +100,12 @@ GltfPositions::GltfPositions(GltfFile& file, std::uint64_t number) {
         file.fail(fmt::format("expected data of glTF accessor {}, found none (is the mesh compressed?)", number));
     }
     if (sparse != nullptr) read_sparse(file, *sparse);
+}
+
+GltfPositions::GltfPositions(GltfFile& file, std::uint64_t number, std::string_view data) {
+    read_type(file, number);
+    count_ = data.size() / (3 * component_size_);
+    records_ = {data.data(), 3 * component_size_};
 }
 
 void GltfPositions::read_sparse(GltfFile& file, const Json& sparse) {

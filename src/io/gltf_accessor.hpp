@@ -4,11 +4,26 @@
 #include "delmesh/base/vec3.hpp"
 #include "io/gltf_file.hpp"
 
+#include <cstddef>
 #include <cstdint>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace delmesh::io {
+
+/// The numbers that glTF has for types, as in OpenGL.
+enum ComponentType : std::uint64_t {
+    type_byte = 5120,
+    type_unsigned_byte = 5121,
+    type_short = 5122,
+    type_unsigned_short = 5123,
+    type_unsigned_int = 5125,
+    type_float = 5126,
+};
+
+/// In bytes; 0 for what is no type.
+[[nodiscard]] std::size_t size_of_component(std::uint64_t type);
 
 /// Equal steps through the bytes of a buffer.
 struct GltfRecords {
@@ -23,6 +38,8 @@ class GltfPositions {
 public:
     /// Throws `Error` where accessor `number` is of another type or reaches past its data.
     GltfPositions(GltfFile& file, std::uint64_t number);
+    /// The same where the accessor's data are `data`, one position after another, and not in the file's buffers.
+    GltfPositions(GltfFile& file, std::uint64_t number, std::string_view data);
 
     [[nodiscard]] std::uint64_t size() const { return count_; }
     /// `i` < size()
@@ -30,6 +47,7 @@ public:
 
 private:
     [[nodiscard]] Vec3 decode(const char* from) const;
+    void read_type(GltfFile& file, std::uint64_t number);
     void read_sparse(GltfFile& file, const Json& sparse);
 
     std::uint64_t count_ = 0;

@@ -1,6 +1,7 @@
 #include "io/gltf_file.hpp"
 
 #include "io/endian.hpp"
+#include "io/gltf_meshopt.hpp"
 #include "io/messages.hpp"
 #include "io/read_all.hpp"
 
@@ -22,9 +23,9 @@ std::uint32_t word(std::string_view bytes, std::size_t at) {
 
 /// Extensions that change nothing about where triangles are, or that are read.
 bool is_harmless(std::string_view extension) {
-    constexpr std::array<std::string_view, 8> prefixes{"KHR_materials_", "KHR_technique",        "KHR_texture_",
-                                                       "EXT_texture_",   "MSFT_texture_",        "KHR_lights_",
-                                                       "KHR_xmp",        "KHR_mesh_quantization"};
+    constexpr std::array<std::string_view, 10> prefixes{
+        "KHR_materials_", "KHR_technique", "KHR_texture_",          "EXT_texture_",  "MSFT_texture_",
+        "KHR_lights_",    "KHR_xmp",       "KHR_mesh_quantization", draco_extension, meshopt_extension};
     return std::ranges::any_of(prefixes, [&](std::string_view prefix) { return extension.starts_with(prefix); });
 }
 
@@ -60,10 +61,11 @@ std::string decode_percent(std::string_view uri) {
 GltfFile::GltfFile(Input& input, std::filesystem::path folder)
     : name_(input.name()),
       folder_(std::move(folder)),
-      bytes_(read_all(input)) {
+      bytes_(read_all(input)),
+      size_(bytes_.size()) {
     parse(open_container());
     check_version();
-    refuse_extensions();
+    note_extensions();
     buffers_.resize(list(root_, "buffers").size());
 }
 
@@ -122,10 +124,13 @@ void GltfFile::check_version() const {
          ErrorCode::unsupported_format);
 }
 
-void GltfFile::refuse_extensions() const {
+void GltfFile::note_extensions() {
     for (const Json& extension : list(root_, "extensionsRequired")) {
         const std::string name = extension.text() == nullptr ? std::string() : *extension.text();
-        if (is_harmless(name)) continue;
+        if (is_harmless(name)) {
+            required_.insert(name);
+            continue;
+        }
         fail(fmt::format("expected plain glTF, found that the extension {} is needed, which is not read: save the mesh "
                          "without it",
                          quote(name)),
@@ -133,7 +138,16 @@ void GltfFile::refuse_extensions() const {
     }
 }
 
+bool GltfFile::is_required(std::string_view extension) const {
+    return required_.contains(extension);
+}
+
 // --- JSON ---
+
+const Json* GltfFile::extension(const Json& object, const char* name) const {
+    const Json* const extensions = object.find("extensions");
+    return extensions == nullptr ? nullptr : extensions->find(name);
+}
 
 const Json::List& GltfFile::list(const Json& object, const char* key) const {
     static const Json::List empty;
@@ -210,6 +224,43 @@ std::string_view GltfFile::buffer(std::uint64_t number) {
     return buffer.bytes;
 }
 
+bool GltfFile::has_data(std::uint64_t buffer) const {
+    return !text(element("buffers", buffer), "uri").empty() || (buffer == 0 && chunk_.has_value());
+}
+
+std::string_view GltfFile::slice(const Json& json) {
+    const std::string_view all = buffer(number(json, "buffer"));
+    const std::uint64_t begin = find_number(json, "byteOffset").value_or(0);
+    const std::uint64_t length = number(json, "byteLength");
+    if (begin > all.size() || length > all.size() - begin)
+        fail(fmt::format("expected {} bytes of a glTF buffer view from byte {}, found a buffer of {}", length, begin,
+                         all.size()));
+    return all.substr(static_cast<std::size_t>(begin), static_cast<std::size_t>(length));
+}
+
+GltfView GltfFile::buffer_view(std::uint64_t number) {
+    const Json& view = element("bufferViews", number);
+    const std::uint64_t stride = find_number(view, "byteStride").value_or(0);
+    const Json* const packed = extension(view, meshopt_extension);
+    // What need not be unpacked is there without.
+    const bool unpacks =
+        packed != nullptr && (is_required(meshopt_extension) || !has_data(this->number(view, "buffer")));
+    if (!unpacks) return {slice(view), stride};
+    const auto found = unpacked_.find(number);
+    if (found != unpacked_.end()) return {found->second, stride};
+    return {unpacked_.emplace(number, unpack(view, *packed, number)).first->second, stride};
+}
+
+std::string GltfFile::unpack(const Json& view, const Json& packed, std::uint64_t number) {
+    const std::string_view bytes = slice(packed);
+    const std::uint64_t length = this->number(view, "byteLength");
+    // Many views may be unpacked from the same bytes.
+    if (length > meshopt_growth * size_ - unpacked_bytes_)
+        fail(fmt::format("glTF buffer view {}: expected meshopt data in proportion to the file, found more", number));
+    unpacked_bytes_ += length;
+    return decode_meshopt(*this, packed, bytes, length, number);
+}
+
 std::string GltfFile::decode_base64(std::string_view text) const {
     while (text.ends_with('=')) text.remove_suffix(1);
     std::string bytes;
@@ -229,7 +280,7 @@ std::string GltfFile::decode_base64(std::string_view text) const {
 }
 
 /// A file may name files in its own folder and below, and no others.
-std::string GltfFile::read_beside(std::string_view uri) const {
+std::string GltfFile::read_beside(std::string_view uri) {
     const std::filesystem::path inside = decode_percent(uri);
     const bool below = inside.is_relative() && std::ranges::find(inside, "..") == inside.end() &&
                        uri.find(':') == uri.npos && uri.find('\0') == uri.npos;
@@ -242,7 +293,9 @@ std::string GltfFile::read_beside(std::string_view uri) const {
              ErrorCode::file_not_readable);
     FileSource source(path);
     Input input(source, path.string());
-    return read_all(input);
+    std::string bytes = read_all(input);
+    size_ += bytes.size();
+    return bytes;
 }
 
 }  // namespace delmesh::io

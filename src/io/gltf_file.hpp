@@ -6,12 +6,21 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace delmesh::io {
+
+/// The bytes of a buffer view, unpacked, and how far apart its elements are; 0 where they follow one another.
+struct GltfView {
+    std::string_view bytes;
+    std::uint64_t stride = 0;
+};
 
 /// Everything throws `Error` in one line that names the file: file_format where the data are not what they should be,
 /// unsupported_format where an extension is needed that is not read.
@@ -24,10 +33,15 @@ public:
     GltfFile& operator=(const GltfFile&) = delete;
 
     [[nodiscard]] const std::string& name() const { return name_; }
-    [[nodiscard]] std::size_t size() const { return bytes_.size(); }
+    /// Of the file and of those beside it that were read so far.
+    [[nodiscard]] std::uint64_t size() const { return size_; }
     [[nodiscard]] const Json& root() const { return root_; }
-    /// The bytes of a buffer; they stay where they are as long as this does.
-    [[nodiscard]] std::string_view buffer(std::uint64_t number);
+    /// The bytes stay where they are as long as this does.
+    [[nodiscard]] GltfView buffer_view(std::uint64_t number);
+    /// The member of that name among the extensions of `object`; null if there is none.
+    [[nodiscard]] const Json* extension(const Json& object, const char* name) const;
+    /// Whether the file can not be read without the extension.
+    [[nodiscard]] bool is_required(std::string_view extension) const;
 
     [[noreturn]] void fail(const std::string& what, ErrorCode code = ErrorCode::file_format) const;
 
@@ -55,17 +69,28 @@ private:
     [[nodiscard]] std::string_view open_container();
     void parse(std::string_view json);
     void check_version() const;
-    void refuse_extensions() const;
+    /// Throws where one is needed that is not read.
+    void note_extensions();
+    /// The bytes of a buffer.
+    [[nodiscard]] std::string_view buffer(std::uint64_t number);
+    [[nodiscard]] bool has_data(std::uint64_t buffer) const;
+    /// The bytes that `json` (a buffer view, or an extension of one) names.
+    [[nodiscard]] std::string_view slice(const Json& json);
+    [[nodiscard]] std::string unpack(const Json& view, const Json& packed, std::uint64_t number);
     [[nodiscard]] std::string decode_base64(std::string_view text) const;
-    [[nodiscard]] std::string read_beside(std::string_view uri) const;
+    [[nodiscard]] std::string read_beside(std::string_view uri);
 
     std::string name_;
     std::filesystem::path folder_;
     std::string bytes_;
+    std::uint64_t size_ = 0;
     std::uint64_t json_begin_ = 0;
     std::optional<std::string_view> chunk_;
     Json root_;
+    std::set<std::string, std::less<>> required_;  ///< extensions
     std::vector<Buffer> buffers_;
+    std::map<std::uint64_t, std::string> unpacked_;  ///< views
+    std::uint64_t unpacked_bytes_ = 0;
 };
 
 }  // namespace delmesh::io

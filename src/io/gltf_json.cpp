@@ -85,11 +85,12 @@ namespace {
 
 using Library = nlohmann::json;
 
-bool is_wanted(std::size_t depth, const std::string& key) {
+bool is_wanted(std::size_t depth, bool names_extensions, const std::string& key) {
     constexpr std::array wanted{"asset",  "scene",     "scenes",      "nodes",  "extensionsRequired",
                                 "meshes", "accessors", "bufferViews", "buffers"};
     if (depth == 1) return std::ranges::find(wanted, key) != wanted.end();
-    return key != "extras" && key != "extensions";
+    if (names_extensions) return key == draco_extension || key == meshopt_extension;
+    return key != "extras";
 }
 
 /// Builds values as the library's parser finds them.
@@ -110,8 +111,10 @@ public:
     bool end_array() override { return close(); }
     bool key(string_t& name) override {
         if (left_out_ > 0) return true;
-        is_unwanted_ = !is_wanted(open_.size(), name);
-        if (!is_unwanted_) open_.back()->members()->emplace_back(std::move(name), Json());
+        is_unwanted_ = !is_wanted(open_.size(), extensions_ == open_.size(), name);
+        if (is_unwanted_) return true;
+        is_extensions_ = extensions_ == 0 && name == "extensions";
+        open_.back()->members()->emplace_back(std::move(name), Json());
         return true;
     }
     bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception&) override {
@@ -130,6 +133,7 @@ private:
         return &open_.back()->list()->emplace_back();
     }
     bool put(Json value) {
+        is_extensions_ = false;
         if (Json* const slot = take_slot()) *slot = std::move(value);
         return true;
     }
@@ -141,6 +145,7 @@ private:
         }
         *slot = std::move(value);
         open_.push_back(slot);
+        if (std::exchange(is_extensions_, false)) extensions_ = open_.size();
         if (open_.size() > deepest_json) fault_ = {0, true};
         return !fault_;
     }
@@ -149,6 +154,7 @@ private:
             --left_out_;
         } else {
             open_.pop_back();
+            if (open_.size() < extensions_) extensions_ = 0;
         }
         return true;
     }
@@ -156,7 +162,9 @@ private:
     Json& root_;
     std::vector<Json*> open_;  ///< what is being filled: only its last element can grow, so these addresses hold
     bool is_unwanted_ = false;
-    std::size_t left_out_ = 0;  ///< open objects and lists of what is left out
+    bool is_extensions_ = false;
+    std::size_t extensions_ = 0;  ///< at which depth the members of an object are extensions; 0: at none
+    std::size_t left_out_ = 0;    ///< open objects and lists of what is left out
     std::optional<JsonFault> fault_;
 };
 

@@ -1,4 +1,5 @@
 #include "io/gltf_accessor.hpp"
+#include "io/gltf_draco.hpp"
 #include "io/gltf_file.hpp"
 #include "io/point_index.hpp"
 #include "io/readers.hpp"
@@ -7,6 +8,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
+#include <map>
 #include <utility>
 
 namespace delmesh::io {
@@ -122,6 +124,8 @@ private:
         if (kind == Primitive::other || attributes == nullptr) return;
         const auto position = file_.find_number(*attributes, "POSITION");
         if (!position) return;
+        if (const Json* const draco = draco_of(primitive, *position))
+            return add_draco(*draco, primitive, *position, index);
         const GltfPositions positions(file_, *position);
         if (const auto indices = file_.find_number(primitive, "indices")) {
             const GltfIndices numbers(file_, *indices);
@@ -137,8 +141,27 @@ private:
         }
     }
 
+    /// What is packed by Draco, unless its positions are there without.
+    const Json* draco_of(const Json& primitive, std::uint64_t position) const {
+        const Json* const extension = file_.extension(primitive, draco_extension);
+        if (extension == nullptr || file_.is_required(draco_extension)) return extension;
+        const Json& accessor = file_.element("accessors", position);
+        return accessor.find("bufferView") == nullptr && accessor.find("sparse") == nullptr ? extension : nullptr;
+    }
+
+    void add_draco(const Json& extension, const Json& primitive, std::uint64_t position, PointIndex& index) {
+        // A mesh may stand in many places.
+        const auto [found, is_new] = unpacked_.try_emplace(&primitive);
+        DracoMesh& mesh = found->second;
+        if (is_new) mesh = decode_draco(file_, primitive, extension, scene_);
+        const GltfPositions positions(file_, position, mesh.positions);
+        add_corners(Primitive::triangles, mesh.corners.size(), index,
+                    [&](std::uint64_t i) { return positions[mesh.corners[i]]; });
+    }
+
     template <class PointAt>
     void add_corners(Primitive kind, std::uint64_t count, PointIndex& index, PointAt&& point_at) {
+        scene_.set_file_bytes(file_.size());
         // A strip or fan has a triangle for each corner.
         scene_.expect(kind == Primitive::triangles ? count : 3 * count);
         const auto add = [&](std::uint64_t i) { corners_.push_back(index.add(point_at(i))); };
@@ -157,6 +180,7 @@ private:
     std::vector<bool> visited_;
     std::vector<Vec3> points_;
     std::vector<std::uint32_t> corners_;
+    std::map<const Json*, DracoMesh> unpacked_;  ///< by primitive
 };
 
 }  // namespace

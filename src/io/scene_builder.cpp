@@ -8,16 +8,20 @@
 
 namespace delmesh::io {
 
-SceneBuilder::SceneBuilder(std::string name, std::size_t file_bytes)
-    : name_(std::move(name)),
-      left_((std::uint64_t{1} << 22) + 64 * std::uint64_t{file_bytes}) {}
+SceneBuilder::SceneBuilder(std::string name, std::uint64_t file_bytes) : name_(std::move(name)) {
+    set_file_bytes(file_bytes);
+}
+
+void SceneBuilder::set_file_bytes(std::uint64_t file_bytes) {
+    allowed_ = (std::uint64_t{1} << 22) + 64 * file_bytes;
+}
 
 void SceneBuilder::expect(std::uint64_t elements) {
-    if (elements > left_)
+    if (elements > left())
         throw Error(
             ErrorCode::file_format,
             name_ + ": expected a scene in proportion to its file, found one that repeats its meshes too often");
-    left_ -= elements;
+    taken_ += elements;
 }
 
 void SceneBuilder::add_mesh(std::span<const Vec3> points, std::span<const std::uint32_t> corners,

@@ -12,6 +12,7 @@
 #include "delmesh/simplify/simplify.hpp"
 #include "faults/failing_allocations.hpp"
 #include "io/io_support.hpp"
+#include "io/packed_gltf.hpp"
 #include "io/packing.hpp"
 #include "io/scene_files.hpp"
 
@@ -78,6 +79,8 @@ std::vector<std::pair<std::string, std::string>> small_files() {
         {"a.glb", test::glb(test::tetrahedron_json("[{\"mesh\":0}]"), test::tetrahedron_buffer())},
         {"a.gltf",
          test::tetrahedron_json("[{\"mesh\":0}]", 2, "data:a/b;base64," + test::base64(test::tetrahedron_buffer()))},
+        {"meshopt.glb", test::meshopt_glb(test::meshopt_tetrahedron(true))},
+        {"draco.glb", test::draco_glb(test::draco_data(test::packed_tetrahedron(), {.has_texture = true}))},
         {"a.3mf", test::package_3mf(test::model_3mf(test::tetrahedron_3mf(1), "<item objectid=\"1\"/>"))}};
     for (const Format format : {Format::ply, Format::obj, Format::off, Format::stl}) {
         const std::string file = "a." + std::string(name(format));
