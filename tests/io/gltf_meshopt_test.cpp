@@ -37,7 +37,7 @@ std::vector<std::array<Vec3, 3>> triangles(const PolygonSoup& soup) {
     for (std::size_t f = 0; f < soup.face_count(); ++f) {
         std::array<Vec3, 3> t{};
         for (std::size_t c = 0; c < 3; ++c) t[c] = soup.points[soup.corners[3 * f + c]];
-        std::ranges::rotate(t, std::ranges::min_element(t, less));
+        std::rotate(t.begin(), std::min_element(t.begin(), t.end(), less), t.end());
         result.push_back(t);
     }
     return result;
