@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <system_error>
 #include <utility>
 
 namespace delmesh::io {
@@ -217,8 +218,8 @@ std::string_view GltfFile::buffer(std::uint64_t number) {
     } else {
         const std::size_t comma = uri.find(',');
         const bool embedded = uri.starts_with("data:") && comma != uri.npos;
-        buffer.owned = embedded ? decode_base64(uri.substr(comma + 1)) : read_beside(uri);
-        buffer.bytes = buffer.owned;
+        if (embedded) buffer.owned = decode_base64(uri.substr(comma + 1));
+        buffer.bytes = embedded ? std::string_view(buffer.owned) : read_beside(uri);
     }
     buffer.known = true;
     return buffer.bytes;
@@ -280,22 +281,25 @@ std::string GltfFile::decode_base64(std::string_view text) const {
 }
 
 /// A file may name files in its own folder and below, and no others.
-std::string GltfFile::read_beside(std::string_view uri) {
+std::string_view GltfFile::read_beside(std::string_view uri) {
     const std::filesystem::path inside = decode_percent(uri);
     const bool below = inside.is_relative() && std::ranges::find(inside, "..") == inside.end() &&
                        uri.find(':') == uri.npos && uri.find('\0') == uri.npos;
     if (folder_.empty() || !below)
         fail(fmt::format("expected glTF data in the file or its folder, found that they are in {}", quote(uri)),
              ErrorCode::unsupported_format);
-    const std::filesystem::path path = folder_ / inside;
-    if (!std::filesystem::is_regular_file(path))
+    std::error_code error;
+    const std::filesystem::path path = std::filesystem::canonical(folder_ / inside, error);
+    if (error || !std::filesystem::is_regular_file(path, error))
         fail(fmt::format("expected the file {} of glTF data beside it, found none", quote(uri)),
              ErrorCode::file_not_readable);
+    const auto found = files_.find(path);
+    if (found != files_.end()) return found->second;
     FileSource source(path);
-    Input input(source, path.string());
+    Input input(source, (folder_ / inside).string());
     std::string bytes = read_all(input);
     size_ += bytes.size();
-    return bytes;
+    return files_.emplace(path, std::move(bytes)).first->second;
 }
 
 }  // namespace delmesh::io

@@ -78,7 +78,7 @@ private:
     [[nodiscard]] std::string_view slice(const Json& json);
     [[nodiscard]] std::string unpack(const Json& view, const Json& packed, std::uint64_t number);
     [[nodiscard]] std::string decode_base64(std::string_view text) const;
-    [[nodiscard]] std::string read_beside(std::string_view uri);
+    [[nodiscard]] std::string_view read_beside(std::string_view uri);
 
     std::string name_;
     std::filesystem::path folder_;
@@ -89,7 +89,8 @@ private:
     Json root_;
     std::set<std::string, std::less<>> required_;  ///< extensions
     std::vector<Buffer> buffers_;
-    std::map<std::uint64_t, std::string> unpacked_;  ///< views
+    std::map<std::filesystem::path, std::string> files_;  ///< beside this one: many buffers may name the same
+    std::map<std::uint64_t, std::string> unpacked_;       ///< views
     std::uint64_t unpacked_bytes_ = 0;
 };
 

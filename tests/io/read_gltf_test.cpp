@@ -53,6 +53,12 @@ TEST(ReadGltf, BuffersInFilesBesideIt) {
         test::write_bytes(folder / "a.gltf", tetrahedron_json(one_node, 1, uri));
         test::expect_error([&] { (void)read_soup(folder / "a.gltf"); }, ErrorCode::unsupported_format, "its folder");
     }
+    // Names that the system takes for no file at all.
+    std::filesystem::create_symlink("loop", folder / "loop");
+    for (const std::string& uri : {std::string(3'000, 'a'), std::string("loop")}) {
+        test::write_bytes(folder / "a.gltf", tetrahedron_json(one_node, 1, uri));
+        test::expect_error([&] { (void)read_soup(folder / "a.gltf"); }, ErrorCode::file_not_readable, "found none");
+    }
     test::write_bytes(folder / "a.gltf", tetrahedron_json(one_node, 1, "gone.bin"));
     test::expect_error([&] { (void)read_soup(folder / "a.gltf"); }, ErrorCode::file_not_readable, "gone.bin");
     test::expect_parse_error(tetrahedron_json(one_node, 1, "a.bin"), "a.gltf", "a.bin", ErrorCode::unsupported_format);
