@@ -23,8 +23,8 @@ namespace {
 /// A table of symbols takes this many steps to fill, however few values an attribute has.
 constexpr std::uint64_t cost_of_attribute = std::uint64_t{1} << 14;
 
-/// Corners and numbers that a mesh may have beside those that its bytes stand for: scans have six for each byte of
-/// Draco data, and only what is flat and regular has more than 64.
+/// Corners and numbers that a mesh may have beside those that its bytes stand for: a scan has 5 for each byte of Draco
+/// data at 14 bits and 15 at 8, and only what is flat and regular has more than 64.
 constexpr std::uint64_t always_allowed = std::uint64_t{1} << 20;
 constexpr std::uint64_t most_growth = 64;
 
