@@ -206,6 +206,25 @@ TEST(GltfDraco, AnyBytesDoNoHarm) {
     EXPECT_GT(errors, 1'500U);
 }
 
+/// The largest count anywhere: Draco itself takes 16 seconds for one of these files, and 267 MB.
+TEST(GltfDraco, LargeCountsAnywhere) {
+    for (const DracoOptions& way : ways()) {
+        const std::string data = test::draco_data(test::packed_tetrahedron(), way);
+        const std::string whole = test::draco_glb(data);
+        for (std::size_t at = 11; at + 4 <= data.size(); ++at) {
+            std::string bytes = whole;
+            bytes.replace(whole.find(data) + at, 4, "\xff\xff\xff\x7f");
+            test::largest_allocation = 0;
+            try {
+                EXPECT_LE(test::parse(bytes, "a.glb").face_count(), 4U);
+            } catch (const Error& error) {
+                EXPECT_TRUE(std::string(error.what()).starts_with("a.glb: glTF buffer view 0: ")) << error.what();
+            }
+            ASSERT_LE(test::largest_allocation, (std::size_t{4} << 20) + 32 * bytes.size()) << at;
+        }
+    }
+}
+
 /// A header that claims many faces and attributes; the accessors agree.
 TEST(GltfDraco, CanNotFillMemory) {
     const auto number = [](std::uint64_t value) {
