@@ -34,6 +34,7 @@ constexpr double most_shares = 2;
 constexpr std::size_t worthwhile = 400;  ///< a round that saves less than 1/400 of the points is the last one
 constexpr int polish_rounds = 2;
 constexpr double spread_share = 0.2;
+constexpr double region_share = 0.3;
 /// The share of the work in which an edge must be closed; else the rest is closed by borrowing.
 constexpr double patience = 0.1;
 constexpr double most_patience = 0.5;  ///< the same, as long as edges get closed
@@ -173,7 +174,12 @@ void SplitChooser::find_places(double full, const Context* context) {
         close(full);
     }
     if (is_hopeless()) return;
-    const double left = (1 + spare_share) * full - static_cast<double>(model_.work() - before);
+    const std::uint64_t closed = model_.work();
+    if (options_.effort > 0 && !in_blocks)
+        search_.lay_regions(static_cast<std::uint64_t>(region_share * full), context);
+    // What is laid leaves less to the search: it counts twice.
+    const double left =
+        (1 + spare_share) * full - static_cast<double>(model_.work() - before + (model_.work() - closed));
     if (options_.effort > 0) in_blocks ? improve_blocks(context) : improve(full, std::max(full, left), context);
 }
 

@@ -1,4 +1,4 @@
-// The search's way with rings of long thin facets: whole threads of points, laid anew.
+// The search's way with rings and regions of long thin facets: whole threads of points, laid anew.
 
 #include "delaunay/split_search.hpp"
 
@@ -15,6 +15,9 @@ constexpr std::size_t most_threads = 40;
 constexpr std::size_t slide_steps = 60;
 constexpr std::size_t most_slid = 20'000;
 constexpr std::size_t short_slide = 8;
+/// Of a region that is laid anew, and points for each.
+constexpr std::size_t least_edges = 8;
+constexpr std::size_t dense = 3;
 
 }  // namespace
 
@@ -109,6 +112,35 @@ void SplitSearch::thin_rings(std::uint64_t work) {
         });
     }
     slide_.rest();
+}
+
+void SplitSearch::lay_regions(std::uint64_t work, const Context* context) {
+    // What comes of it is luck, and must not change the luck of the rest where nothing does.
+    Random random = random_;
+    RegionThreads region(model_, repair_, random.next());
+    std::vector<bool> done(model_.edge_count(), false);
+    for (const std::uint32_t e : open_) done[e] = true;
+    // False if some were done before.
+    const auto mark = [&] {
+        bool all = true;
+        for (const std::uint32_t e : region.edges()) {
+            if (e >= done.size()) continue;
+            all = all && !done[e];
+            done[e] = true;
+        }
+        return all;
+    };
+    const double work_per_point = static_cast<double>(work) / static_cast<double>(model_.point_count() + 1);
+    for (std::uint32_t e = 0; e < done.size() && !is_cancelled(context); ++e) {
+        if (done[e] || model_.point_count(e) == 0 || !model_.is_movable(e)) continue;
+        region.gather(e);
+        const std::size_t count = region.point_count();
+        const bool is_dense = region.edges().size() >= least_edges && count >= dense * region.edges().size();
+        if (!mark() || !is_dense) continue;
+        if (!region.thin(static_cast<std::uint64_t>(work_per_point * static_cast<double>(count)), context)) continue;
+        region.gather(e);
+        (void)mark();
+    }
 }
 
 /// Lays new threads around the ring of an edge.

@@ -2,6 +2,7 @@
 // A large-neighbourhood search for few split points: take some away, repair what becomes bad, keep what is not worse.
 
 #include "base/random.hpp"
+#include "delaunay/region_threads.hpp"
 #include "delaunay/slice_threads.hpp"
 #include "delaunay/split_model.hpp"
 #include "delaunay/split_regions.hpp"
@@ -40,6 +41,9 @@ public:
     void close_rings(std::uint64_t work);
     /// Solves rings that have points with fewer ones, where that is possible.
     void thin_rings(std::uint64_t work);
+
+    /// Lays threads at right angles to needles in place of all points of a region, where that takes fewer.
+    void lay_regions(std::uint64_t work, const Context* context = nullptr);
 
     /// A solution to borrow from, sorted; must outlive the search.
     void set_other(std::span<const PlacedPoint> other) { other_ = other; }
