@@ -140,7 +140,8 @@ private:
     }
     bool spend(std::uint64_t elements, std::uint64_t each) {
         if (elements > limits_.left || (each > 0 && elements > limits_.left / each))
-            return stop("expected a mesh in proportion to its bytes, found more corners and attributes");
+            return stop(
+                "expected a mesh in proportion to its bytes, found more corners and attributes: save it without Draco");
         limits_.left -= elements * each;
         return true;
     }
@@ -165,10 +166,11 @@ public:
             fail("expected Draco data, found " + quote(bytes_.substr(0, 5)));
         // What glTF knows. Older data are read by other parts of the library, and metadata nest.
         if (header.version_major != 2 || header.version_minor != 2)
-            fail(fmt::format("expected Draco data of version 2.2, found version {}.{}", header.version_major,
-                             header.version_minor));
+            fail(fmt::format("expected Draco data of version 2.2, found version {}.{}: pack the mesh anew",
+                             header.version_major, header.version_minor));
         if (header.encoder_type != draco::TRIANGULAR_MESH) fail("expected a mesh, found Draco data of another kind");
-        if ((header.flags & METADATA_FLAG_MASK) != 0) fail("expected Draco data without metadata, found some");
+        if ((header.flags & METADATA_FLAG_MASK) != 0)
+            fail("expected Draco data without metadata, found some: save the mesh without them");
         if (header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING) {
             decode_with<draco::MeshEdgebreakerDecoder>(buffer, limits);
         } else if (header.encoder_method == draco::MESH_SEQUENTIAL_ENCODING) {
