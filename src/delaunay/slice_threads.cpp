@@ -9,6 +9,7 @@
 namespace delmesh {
 namespace {
 
+constexpr std::size_t parts_per_work = 4;  ///< looked at: an edge may have a hundred thousand
 constexpr std::size_t most_steps = 1'000'000;
 constexpr std::size_t steps_per_look = 1024;
 /// See `slice`.
@@ -104,6 +105,7 @@ bool SliceThreads::is_doubtful(std::uint32_t e, std::size_t part) {
 /// Splits one bad part, and has the edge looked at again.
 SliceThreads::Found SliceThreads::split(std::uint32_t e, bool halves) {
     const std::size_t parts = model_.parts(e).size();
+    model_.count_work(parts / parts_per_work);
     Found found = Found::nothing;
     for (std::size_t part = 0; part < parts; ++part) {
         if (!model_.is_bad(e, model_.parts(e)[part])) continue;
