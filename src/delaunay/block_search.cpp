@@ -123,15 +123,7 @@ void put_back(SplitModel& model, const BlockResult& result) {
         model.prepare(e);
         model.cut(e, 0, model.point_count(e), {});
     }
-    std::vector<double> points;
-    for (std::size_t i = 0; i < result.points.size(); ++i) {
-        points.push_back(result.points[i].at);
-        const std::uint32_t e = result.points[i].edge;
-        if (i + 1 < result.points.size() && result.points[i + 1].edge == e) continue;
-        model.prepare(e);
-        model.cut(e, 0, 0, points);
-        points.clear();
-    }
+    add_points(model, result.points);
 }
 
 /// Lays out the facets around those with points, so that the search may go there.

@@ -254,13 +254,7 @@ void SplitChooser::put(std::span<const PlacedPoint> points, const std::vector<st
     for (const std::uint32_t e : search_.open()) model_.give_up(e, false);
     for (std::uint32_t e = 0; e < model_.edge_count(); ++e)
         if (model_.point_count(e) > 0) model_.cut(e, 0, model_.point_count(e), {});
-    std::vector<double> places;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        places.push_back(points[i].at);
-        if (i + 1 < points.size() && points[i + 1].edge == points[i].edge) continue;
-        model_.cut(points[i].edge, 0, 0, places);
-        places.clear();
-    }
+    add_points(model_, points);
     while (model_.suspect_count() > 0) model_.drop_suspect(model_.suspect_count() - 1);
     search_.set_open(open);
 }

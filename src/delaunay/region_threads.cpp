@@ -80,13 +80,7 @@ RegionThreads::Thread RegionThreads::places() const {
 /// In place of all threads.
 void RegionThreads::put_back(std::span<const Place> places) {
     take_all();
-    std::vector<double> at;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        at.push_back(places[i].at);
-        if (i + 1 < places.size() && places[i + 1].edge == places[i].edge) continue;
-        model_.cut(places[i].edge, 0, 0, at);
-        at.clear();
-    }
+    add_points(model_, places);
     while (model_.suspect_count() > 0) model_.drop_suspect(model_.suspect_count() - 1);
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/random.hpp"
 #include "delaunay/split_model.hpp"
+#include "delaunay/split_regions.hpp"
 #include "delaunay/split_repair.hpp"
 #include "delmesh/base/context.hpp"
 
@@ -34,12 +35,7 @@ public:
     [[nodiscard]] bool thin(std::uint64_t work, const Context* context = nullptr);
 
 private:
-    struct Place {
-        std::uint32_t edge = 0;
-        double at = 0;
-
-        friend auto operator<=>(const Place&, const Place&) = default;
-    };
+    using Place = PlacedPoint;
     using Thread = std::vector<Place>;
 
     void visit(std::uint32_t e);

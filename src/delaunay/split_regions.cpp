@@ -60,7 +60,25 @@ struct Balance {
     [[nodiscard]] bool is_worse() const { return ours > theirs; }
 };
 
+/// Those of edges that are wanted, which is asked by number.
+template <class IsWanted>
+void add_wanted(SplitModel& model, std::span<const PlacedPoint> points, IsWanted&& is_wanted) {
+    std::vector<double> places;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (!is_wanted(i)) continue;
+        places.push_back(points[i].at);
+        if (i + 1 < points.size() && points[i + 1].edge == points[i].edge) continue;
+        model.prepare(points[i].edge);
+        model.cut(points[i].edge, 0, 0, places);
+        places.clear();
+    }
+}
+
 }  // namespace
+
+void add_points(SplitModel& model, std::span<const PlacedPoint> points) {
+    add_wanted(model, points, [](std::size_t) { return true; });
+}
 
 std::vector<PlacedPoint> placed_points(const SplitModel& model) {
     std::vector<PlacedPoint> points;
@@ -88,15 +106,7 @@ std::size_t take_better_regions(SplitModel& model, std::span<const std::uint32_t
         model.prepare(e);
         model.cut(e, 0, model.point_count(e), {});
     }
-    std::vector<double> points;
-    for (std::size_t i = 0; i < theirs.size(); ++i) {
-        if (!take[i]) continue;
-        points.push_back(theirs[i].at);
-        if (i + 1 < theirs.size() && theirs[i + 1].edge == theirs[i].edge) continue;
-        model.prepare(theirs[i].edge);
-        model.cut(theirs[i].edge, 0, 0, points);
-        points.clear();
-    }
+    add_wanted(model, theirs, [&](std::size_t i) { return take[i]; });
     return static_cast<std::size_t>(
         std::count_if(balance.begin(), balance.end(), [](const Balance& b) { return b.is_worse(); }));
 }

@@ -21,6 +21,9 @@ struct PlacedPoint {
 /// The points of the model, sorted.
 [[nodiscard]] std::vector<PlacedPoint> placed_points(const SplitModel& model);
 
+/// Adds points, sorted, to edges that have none.
+void add_points(SplitModel& model, std::span<const PlacedPoint> points);
+
 /// Replaces the model's points by those of `theirs` in each region where that has fewer than `ours`, or where an edge
 /// of `open` lies. Both are sorted; `ours` is what the model's points come to. Regions are connected sets of facets
 /// that any of the solutions touches; what happens in one does not depend on another. Returns how many regions changed.
