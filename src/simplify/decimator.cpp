@@ -320,7 +320,8 @@ void Decimator::process(const Queue::Entry& entry) {
         return;
     }
     const Vec3 w = settled(star_.frame.to_mesh(place->point));
-    if (tuning_.constrained && !keeps_delaunay(mesh_, star_, w)) return block(h, Blocker::rounding);
+    const bool keeps = tuning_.constrained ? keeps_delaunay(mesh_, star_, w) : keeps_area(mesh_, star_, w);
+    if (!keeps) return block(h, Blocker::rounding);
     const Vec3 local = star_.frame.to_local(w);
     const Quadric merged = weights_.merged_history(star_, local);
     if (exceeds_error(merged)) return block(h, Blocker::error);

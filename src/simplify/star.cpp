@@ -219,7 +219,16 @@ bool turns_over(const Star& star, const Vec3& w) {
     return false;
 }
 
+bool keeps_area(const Mesh& mesh, const Star& star, const Vec3& w) {
+    for (std::size_t i = 0; i < star.face_count(); ++i)
+        if (exact::are_collinear_inline(mesh.point(star.ring[i].vertex), mesh.point(star.ring[star.after(i)].vertex),
+                                        w))
+            return false;
+    return true;
+}
+
 bool keeps_delaunay(const Mesh& mesh, const Star& star, const Vec3& w) {
+    if (!keeps_area(mesh, star, w)) return false;
     const std::size_t faces = star.face_count();
     const std::size_t size = star.ring.size();
     const auto point = [&](std::size_t i) -> const Vec3& { return mesh.point(star.ring[i].vertex); };
@@ -228,7 +237,6 @@ bool keeps_delaunay(const Mesh& mesh, const Star& star, const Vec3& w) {
     for (std::size_t i = 0; i < faces; ++i) {
         const Vec3& p = point(i);
         const Vec3& q = point(star.after(i));
-        if (exact::are_collinear_inline(p, q, w)) return false;
         const VertexId outer = star.ring[i].outer;
         const Sign sign = outer.valid() ? exact::delaunay_sign_inline(p, q, w, opposite(outer))
                                         : exact::right_angle_sign_inline(p, q, w);

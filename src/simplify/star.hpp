@@ -70,8 +70,12 @@ void find_outers(const Mesh& mesh, Star& star);
 /// True if a face of the star turns over when its centre goes to w (local).
 [[nodiscard]] bool turns_over(const Star& star, const Vec3& w);
 
-/// Exact; requires `find_outers`: every edge at w and every ring edge is Delaunay with w at the given point of the
-/// mesh's space.
+/// Exact: no face of the star has lost its area with its centre at the given point of the mesh's space, so no edge its
+/// length.
+[[nodiscard]] bool keeps_area(const Mesh& mesh, const Star& star, const Vec3& w);
+
+/// Exact; requires `find_outers`: the same, and every edge at w and every ring edge is Delaunay with w at the given
+/// point of the mesh's space.
 [[nodiscard]] bool keeps_delaunay(const Mesh& mesh, const Star& star, const Vec3& w);
 
 }  // namespace delmesh
