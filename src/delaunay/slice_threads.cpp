@@ -10,6 +10,8 @@ namespace delmesh {
 namespace {
 
 constexpr std::size_t parts_per_work = 4;  ///< looked at: an edge may have a hundred thousand
+/// What has been solved at all took hardly more than a quarter of it.
+constexpr std::uint64_t work_per_edge = 2'000'000;
 constexpr std::size_t most_steps = 1'000'000;
 constexpr std::size_t steps_per_look = 1024;
 /// See `slice`.
@@ -130,7 +132,7 @@ bool SliceThreads::work_off(const Context* context) {
     for (; model_.suspect_count() > 0 || !later.empty(); ++steps_) {
         const bool halves = model_.suspect_count() == 0;
         const std::uint32_t e = halves ? later.back() : model_.suspect(model_.suspect_count() - 1);
-        if (steps_ >= most_steps || limits_.is_exhausted() || !model_.is_movable(e)) return false;
+        if (steps_ >= most_steps || is_exhausted() || !model_.is_movable(e)) return false;
         if (steps_ % steps_per_look == 0 && is_cancelled(context)) return false;
         halves ? later.pop_back() : model_.drop_suspect(model_.suspect_count() - 1);
         model_.prepare(e);
@@ -164,6 +166,7 @@ bool SliceThreads::split_doubtful(const Context* context) {
 
 bool SliceThreads::solve(const Context* context) {
     steps_ = 0;
+    work_limit_ = model_.work() + work_per_edge * edges_.size();
     levels_.find_axis(edges_);
     for (const std::uint32_t e : edges_) {
         model_.cut(e, 0, model_.point_count(e), {});

@@ -38,7 +38,8 @@ public:
 
     /// Replaces all points on the gathered edges: each bad part is split where the plane through what it sees cuts it,
     /// and halved only when no plane is left. Then the same for what rounding may make bad. Must be in a transaction.
-    /// False after very many steps, beyond the limits, or where a part is too short to be split.
+    /// False after very many steps, beyond the limits or what so many edges are worth, or where a part is too short to
+    /// be split.
     [[nodiscard]] bool solve(const Context* context);
 
 private:
@@ -54,6 +55,7 @@ private:
     [[nodiscard]] bool cut(std::uint32_t e, std::size_t part, double at);
     [[nodiscard]] bool work_off(const Context* context);
     [[nodiscard]] bool split_doubtful(const Context* context);
+    [[nodiscard]] bool is_exhausted() const { return limits_.is_exhausted() || model_.work() >= work_limit_; }
 
     SplitModel& model_;
     const SplitRepair& limits_;
@@ -63,6 +65,7 @@ private:
     std::array<std::vector<std::uint32_t>, 3> rim_;
     std::vector<bool> reached_;
     std::size_t steps_ = 0;
+    std::uint64_t work_limit_ = 0;
 };
 
 }  // namespace delmesh
