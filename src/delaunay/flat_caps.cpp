@@ -33,7 +33,16 @@ HalfedgeId longest_side(const Mesh& mesh, const UnitFrame& frame, FaceId f) {
 
 class CapFlips {
 public:
-    CapFlips(Mesh& mesh, const UnitFrame& frame, double allowed) : mesh_(mesh), frame_(frame), allowed_(allowed) {}
+    CapFlips(Mesh& mesh, const UnitFrame& frame, double allowed)
+        : mesh_(mesh),
+          plain_(&mesh),
+          frame_(frame),
+          allowed_(allowed) {}
+    CapFlips(MarkedMesh& marked, const UnitFrame& frame, double allowed)
+        : mesh_(marked.mesh()),
+          marked_(&marked),
+          frame_(frame),
+          allowed_(allowed) {}
 
     FlatCaps run(const Context* context) {
         find_low_faces(context);
@@ -71,16 +80,20 @@ private:
     void try_flip(FaceId f) {
         const HalfedgeId h = longest_side(mesh_, frame_, f);
         const HalfedgeId t = mesh_.twin(h);
-        if (!t.valid() || !is_non_delaunay(mesh_, h) || !can_flip(mesh_, h)) return;
+        if (!t.valid() || !is_non_delaunay(mesh_, h) || !may_flip(h)) return;
         const FaceId g = Mesh::face(t);
         const double moved = std::max(moved_[f.index()], moved_[g.index()]) + height_above(mesh_, frame_, h);
-        if (!(moved * upwards <= allowed_) || makes_cap(h)) return;
-        flip(mesh_, h);
+        if (!(moved * upwards <= allowed_)) return;
+        marked_ != nullptr ? marked_->flip_cap(h) : flip(*plain_, h);
         moved_[f.index()] = moved_[g.index()] = moved * upwards;
         result_.moved = std::max(result_.moved, moved * upwards);
         ++result_.flips;
         for (const FaceId made : {g, f})
             if (is_low(made)) low_.push_back(made);
+    }
+
+    [[nodiscard]] bool may_flip(HalfedgeId h) const {
+        return marked_ != nullptr ? marked_->is_flippable(h) : can_flip(mesh_, h) && !makes_cap(h);
     }
 
     /// Would the flip leave a face without area, or an edge without length?
@@ -92,7 +105,9 @@ private:
                exact::are_collinear_inline(u, v, mesh_.point(mesh_.target(h)));
     }
 
-    Mesh& mesh_;
+    const Mesh& mesh_;
+    Mesh* plain_ = nullptr;         ///< the same, if that is all there is
+    MarkedMesh* marked_ = nullptr;  ///< else
     const UnitFrame& frame_;
     double allowed_;
     std::vector<FaceId> low_;
@@ -117,6 +132,10 @@ double height_above(const Mesh& mesh, const UnitFrame& frame, HalfedgeId h) {
 
 FlatCaps flip_flat_caps(Mesh& mesh, const UnitFrame& frame, double allowed, const Context* context) {
     return allowed > 0 ? CapFlips(mesh, frame, allowed).run(context) : FlatCaps{};
+}
+
+FlatCaps flip_flat_caps(MarkedMesh& marked, const UnitFrame& frame, double allowed, const Context* context) {
+    return allowed > 0 ? CapFlips(marked, frame, allowed).run(context) : FlatCaps{};
 }
 
 }  // namespace delmesh

@@ -1,6 +1,7 @@
 #pragma once
 // Faces that are all but flattened: a corner lies next to the opposite side.
 
+#include "delaunay/marked_mesh.hpp"
 #include "delaunay/unit_frame.hpp"
 #include "delmesh/base/context.hpp"
 #include "delmesh/mesh/mesh.hpp"
@@ -18,6 +19,10 @@ struct FlatCaps {
 /// the corner, all else follows linearly. What has moved is added up per face, so that the whole never exceeds
 /// `allowed`. Ends, as flips of non-Delaunay edges do. The mesh must not hold zero-area faces, and will not.
 FlatCaps flip_flat_caps(Mesh& mesh, const UnitFrame& frame, double allowed, const Context* context);
+
+/// The same between other flips of a marked mesh: the short sides become creases where the long one was. May leave
+/// faces without area, where coordinates do not tell their corners from a line; `clean_up` takes them away.
+FlatCaps flip_flat_caps(MarkedMesh& marked, const UnitFrame& frame, double allowed, const Context* context);
 
 /// An upper bound, in the frame, of the height of face h/3 over the edge of h; not below it by any rounding.
 [[nodiscard]] double height_above(const Mesh& mesh, const UnitFrame& frame, HalfedgeId h);

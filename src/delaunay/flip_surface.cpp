@@ -23,6 +23,8 @@ namespace {
 
 /// Rounds of removing what rounding has flattened and flipping again.
 constexpr int most_cleanings = 50;
+/// Rounds of flipping caps that other flips have left.
+constexpr int most_cap_rounds = 3;
 
 std::vector<Mark> marks_for(const Mesh& mesh, const RemeshOptions& options, const Context* context) {
     if (options.mode == RemeshMode::flip) return mark_features(mesh, 180, {}, context);
@@ -40,6 +42,21 @@ Cleaning flip_and_clean(MarkedMesh& marked, bool split_features, const RemeshOpt
         flip_edges(marked, split_features, options, context, report);
     }
     return cleaning;
+}
+
+/// Flips of other edges leave new caps, and rounding leaves some of these so flat that creases there have no room to be
+/// split. `allowed`: in each round, in the frame.
+void flip_caps_again(MarkedMesh& marked, double allowed, const RemeshOptions& options, const Context* context,
+                     RemeshReport& report, Cleaning& cleaning) {
+    const UnitFrame frame = unit_frame(marked.mesh());
+    for (int round = 0; round < most_cap_rounds && report.stop == StopReason::done; ++round) {
+        const FlatCaps caps = flip_flat_caps(marked, frame, allowed, context);
+        if (caps.flips == 0) return;
+        report.flips += caps.flips;
+        report.flat_tolerance += frame.length(allowed);
+        report.max_deviation += frame.length(caps.moved);
+        cleaning = flip_and_clean(marked, false, options, context, report);
+    }
 }
 
 /// Edges by their ends, smaller vertex first, sorted.
@@ -88,15 +105,16 @@ enum class Way {
 };
 
 /// Flips; then Algorithm 1 for what is left, with all vertices of that moment as input. `spare`: see
-/// `preserve_with_fewest`.
+/// `preserve_with_fewest`. `caps`: that patient flips may take away, no higher than this in the frame.
 void flip_surface(Mesh& mesh, Way way, const RemeshOptions& options, const Context* context, RemeshReport& report,
-                  Mesh* spare = nullptr) {
+                  Mesh* spare = nullptr, double caps = 0) {
     const bool patient = way == Way::patient;
     RemeshOptions flips = options;
     if (patient) flips.finish = FlipFinish::literal;
     MarkedMesh flipping(mesh, marks_for(mesh, options, context), {});
     const bool split_features = options.mode == RemeshMode::feature && !patient;
-    const Cleaning cleaning = flip_and_clean(flipping, split_features, flips, context, report);
+    Cleaning cleaning = flip_and_clean(flipping, split_features, flips, context, report);
+    if (patient && caps > 0) flip_caps_again(flipping, caps, flips, context, report, cleaning);
     report.splits = flipping.split_count();
     if (report.stop == StopReason::done &&
         (cleaning.changes > 0 || cleaning.left || !find_non_delaunay(mesh, context).empty())) {
@@ -129,27 +147,27 @@ struct Attempt {
 
 /// `most_splits` over and above the limit in the options.
 Attempt attempt(const Mesh& mesh, Way way, std::size_t most_splits, const RemeshOptions& options,
-                const Context* context, const RemeshReport& so_far) {
+                const Context* context, const RemeshReport& so_far, double caps) {
     const RemeshOptions bounded = with_at_most(options, mesh.vertex_count() + most_splits);
     Attempt result{mesh, so_far};
-    flip_surface(result.mesh, way, bounded, context, result.report);
+    flip_surface(result.mesh, way, bounded, context, result.report, nullptr, caps);
     return result;
 }
 
 /// The better of the two ways, the patient one if neither ends: what has exploded is not kept meanwhile. The mesh stays
 /// as it is only if neither ends.
 Attempt better_way(Mesh& mesh, std::size_t most_splits, const RemeshOptions& options, const Context* context,
-                   const RemeshReport& so_far) {
-    Attempt published = attempt(mesh, Way::published, most_splits, options, context, so_far);
+                   const RemeshReport& so_far, double caps = 0) {
+    Attempt published = attempt(mesh, Way::published, most_splits, options, context, so_far, caps);
     if (published.cancelled() || (published.done() && published.report.splits == 0)) return published;
     if (!published.done()) {
         published = {};
-        return attempt(mesh, Way::patient, most_splits, options, context, so_far);
+        return attempt(mesh, Way::patient, most_splits, options, context, so_far, caps);
     }
     // One of the two is the result, so the input is needed no more, and a copy would be one mesh too many.
     RemeshReport patient = so_far;
     const RemeshOptions fewer = with_at_most(options, mesh.vertex_count() + published.report.splits - 1);
-    flip_surface(mesh, Way::patient, fewer, context, patient, &published.mesh);
+    flip_surface(mesh, Way::patient, fewer, context, patient, &published.mesh, caps);
     if (patient.stop == StopReason::done || patient.stop == StopReason::cancelled) {
         published.mesh = std::move(mesh);
         published.report = std::move(patient);
@@ -171,10 +189,10 @@ Attempt without_flat_caps(const Mesh& mesh, std::size_t most_splits, const Remes
     Mesh flattened = mesh;
     const FlatCaps caps = flip_flat_caps(flattened, frame, tolerance, context);
     if (caps.flips == 0) return result;
-    result = better_way(flattened, most_splits, options, context, so_far);
+    result = better_way(flattened, most_splits, options, context, so_far, tolerance);
     result.report.flips += caps.flips;
-    result.report.flat_tolerance = frame.length(tolerance);
-    result.report.max_deviation = frame.length(caps.moved);
+    result.report.flat_tolerance += frame.length(tolerance);
+    result.report.max_deviation += frame.length(caps.moved);
     return result;
 }
 
@@ -183,9 +201,19 @@ constexpr std::size_t most_beside(std::size_t splits_without_caps) {
     return 1000 + 2 * splits_without_caps;
 }
 
+/// Edges in a plane fail by the thousand, and cost nothing.
+std::size_t count_bent_non_delaunay(const Mesh& mesh, const Context* context) {
+    const std::vector<HalfedgeId> found = find_non_delaunay(mesh, context);
+    return static_cast<std::size_t>(std::count_if(found.begin(), found.end(), [&mesh](HalfedgeId h) {
+        const HalfedgeId t = mesh.twin(h);
+        return !t.valid() || !exact::is_planar_edge_inline(mesh.point(mesh.origin(h)), mesh.point(mesh.target(h)),
+                                                           mesh.point(mesh.apex(h)), mesh.point(mesh.apex(t)));
+    }));
+}
+
 /// Needles make any way explode, but seldom all: millions of splits are only tried if nothing else is left.
 Attempt best_way(Mesh& mesh, const RemeshOptions& options, const Context* context, const RemeshReport& so_far) {
-    const std::size_t few = 100'000 + 10 * std::min(mesh.vertex_count(), find_non_delaunay(mesh, context).size());
+    const std::size_t few = 100'000 + 10 * std::min(mesh.vertex_count(), count_bent_non_delaunay(mesh, context));
     Attempt flattened = without_flat_caps(mesh, few, options, context, so_far);
     if (flattened.cancelled()) return flattened;
     const std::size_t most = flattened.done() ? most_beside(flattened.report.splits) : few;

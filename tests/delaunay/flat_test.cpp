@@ -1,5 +1,7 @@
 // The flat tolerance: edges that are physical only by rounding flip, and the surface stays as near as was promised.
 
+#include "delaunay/clean.hpp"
+#include "delaunay/features.hpp"
 #include "delaunay/flat_caps.hpp"
 #include "delaunay/flat_rule.hpp"
 #include "delaunay/marked_mesh.hpp"
@@ -275,6 +277,38 @@ TEST(FlatTolerance, ModeFeatureSplitsNoNeedlesByTheThousand) {
     EXPECT_GE(make_delaunay(exact, options).splits, 1010u);
 }
 
+/// A sheet with a crease along x, in which two faces, lower than rounding explains, lie on each other: a flip of their
+/// edge leaves a face without area, as p, u and v are on one line.
+PolygonSoup doubled_caps() {
+    constexpr double low = 0x1p-28;
+    const Vec3 p{0, 0, 0}, q{1, 0, 0}, u{0.5, low, 0}, v{0.625, 1.25 * low, 0};
+    PolygonSoup soup;
+    soup.points = {p, q, u, v, {0.25, 0.75, -0.25}, {0.75, 0.75, -0.25}, {0.25, -0.75, -0.25}, {0.875, -0.75, -0.25}};
+    soup.corners = {0, 1, 2, 1, 0, 3, 0, 2, 4, 2, 5, 4, 2, 1, 5, 3, 0, 6, 3, 6, 7, 3, 7, 1};
+    return soup;
+}
+
+TEST(FlatTolerance, ModeFeatureFlipsCapsAgainWhereTheirFlipsWereInTheWay) {
+    PolygonSoup soup = doubled_caps();
+    const Mesh needles = needles_by_rounding(30);
+    for (const VertexId corner : needles.corners())
+        soup.corners.push_back(static_cast<std::uint32_t>(soup.points.size()) + corner.value());
+    soup.points.insert(soup.points.end(), needles.points().begin(), needles.points().end());
+    const Mesh before{PolygonSoup(soup)};
+    Mesh mesh = before;
+    RemeshOptions options;
+    options.mode = RemeshMode::feature;
+    options.effort = 0;
+    options.max_vertices = before.vertex_count();
+    const RemeshReport report = make_delaunay(mesh, options);
+    EXPECT_EQ(report.stop, StopReason::done);
+    EXPECT_EQ(check_delaunay(mesh), "");
+    EXPECT_EQ(validate(mesh), "");
+    EXPECT_GT(report.max_deviation, 0);
+    EXPECT_LE(report.max_deviation, report.flat_tolerance);
+    EXPECT_LE(measure_distance(before, mesh).hausdorff.value, report.max_deviation);
+}
+
 /// A triangle of height h over its side along x, and a proper one on the other side.
 Mesh cap_over(double length, double at, double height, double beyond) {
     PolygonSoup soup;
@@ -304,6 +338,23 @@ TEST(FlatCaps, GoToTheFacetAcrossTheirLongSide) {
     EXPECT_NEAR(frame.length(caps.moved), 1e-9, 1e-15);
     EXPECT_TRUE(mesh.are_joined(VertexId(2u), VertexId(3u)));
     EXPECT_EQ(validate(mesh), "");
+}
+
+TEST(FlatCaps, OfMarkedMeshesMayPassFacesWithoutArea) {
+    Mesh mesh{doubled_caps()};
+    const UnitFrame frame = unit_frame(mesh);
+    const double allowed = std::ldexp(1e-6, frame.exponent);
+    EXPECT_EQ(flip_flat_caps(mesh, frame, allowed, nullptr).flips, 0u);
+    MarkedMesh marked(mesh, mark_features(mesh, 10, {}, nullptr), {});
+    EXPECT_GT(flip_flat_caps(marked, frame, allowed, nullptr).flips, 0u);
+    EXPECT_EQ(clean_up(marked, nullptr).changes, 0u);
+    EXPECT_EQ(validate(mesh), "");
+    // The crease goes where the caps were.
+    for (const auto& [a, b] : {std::array{0u, 2u}, std::array{2u, 3u}, std::array{3u, 1u}}) {
+        HalfedgeId h = mesh.find_halfedge(VertexId(a), VertexId(b));
+        ASSERT_TRUE(h.valid()) << a << " " << b;
+        EXPECT_FALSE(marked.is_planar(h)) << a << " " << b;
+    }
 }
 
 TEST(SideAlong, IsTheSignOfTheAreaSeenAlongTheAxis) {
