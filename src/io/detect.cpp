@@ -94,7 +94,7 @@ void refuse_foreign(const Input& input, std::string_view text) {
         if (text.starts_with(magic.bytes)) {
             throw Error(ErrorCode::unsupported_format, input.name() +
                                                            ": expected PLY, OBJ, OFF, STL, glTF or 3MF, found " +
-                                                           magic.what + ", which is not read");
+                                                           magic.what + ", which is not read: unpack it first");
         }
     }
 }

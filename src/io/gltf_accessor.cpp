@@ -48,15 +48,17 @@ std::uint32_t load_index(const char* from, std::uint64_t type) {
 
 /// `count` elements of `size` bytes in the buffer view that `json` names, from its offset on.
 GltfRecords find_records(GltfFile& file, const Json& json, std::uint64_t count, std::size_t size) {
-    const GltfView view = file.buffer_view(file.number(json, "bufferView"));
+    const std::uint64_t number = file.number(json, "bufferView");
+    const GltfView view = file.buffer_view(number);
     const std::uint64_t length = view.bytes.size();
     const std::uint64_t offset = file.find_number(json, "byteOffset").value_or(0);
     const std::uint64_t stride = view.stride != 0 ? view.stride : size;
     const bool fits = count == 0 || (stride >= size && offset <= length && size <= length - offset &&
                                      count - 1 <= (length - offset - size) / stride);
     if (!fits)
-        file.fail(fmt::format("expected {} glTF elements of {} bytes from byte {}, found a buffer view of {} bytes",
-                              count, size, offset, length));
+        file.fail(fmt::format(
+            "glTF buffer view {}: expected {} elements of {} bytes from byte {}, found a buffer view of {} bytes",
+            number, count, size, offset, length));
     return {view.bytes.data() + (count == 0 ? 0 : offset), static_cast<std::size_t>(stride)};
 }
 
@@ -97,7 +99,9 @@ GltfPositions::GltfPositions(GltfFile& file, std::uint64_t number) {
     if (json.find("bufferView") != nullptr) {
         records_ = find_records(file, json, count_, 3 * component_size_);
     } else if (sparse == nullptr) {
-        file.fail(fmt::format("expected data of glTF accessor {}, found none (is the mesh compressed?)", number));
+        file.refuse(
+            fmt::format("expected data of glTF accessor {}, found none: save the mesh without compression", number),
+            ErrorCode::file_format);
     }
     if (sparse != nullptr) read_sparse(file, *sparse);
 }
@@ -112,7 +116,8 @@ void GltfPositions::read_sparse(GltfFile& file, const Json& sparse) {
     const std::uint64_t count = file.number(sparse, "count");
     const Json* const indices = sparse.find("indices");
     const Json* const values = sparse.find("values");
-    if (indices == nullptr || values == nullptr) file.fail("expected indices and values of a sparse glTF accessor");
+    if (indices == nullptr || values == nullptr)
+        file.fail("expected indices and values of a sparse glTF accessor, found none");
     const std::uint64_t type = file.number(*indices, "componentType");
     if (!is_index_type(type)) file.fail("expected unsigned integers as glTF indices, found another type");
     const GltfRecords where = find_records(file, *indices, count, size_of_component(type));

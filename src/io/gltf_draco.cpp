@@ -28,6 +28,8 @@ constexpr std::uint64_t cost_of_attribute = std::uint64_t{1} << 14;
 constexpr std::uint64_t always_allowed = std::uint64_t{1} << 20;
 constexpr std::uint64_t most_growth = 64;
 
+constexpr std::string_view advice = ": save the mesh anew, or without Draco";
+
 /// The counts that the data begin with: sums in 64 bits, since they are 32 bits of anything.
 struct DracoCounts {
     std::uint64_t faces = 0;
@@ -140,8 +142,7 @@ private:
     }
     bool spend(std::uint64_t elements, std::uint64_t each) {
         if (elements > limits_.left || (each > 0 && elements > limits_.left / each))
-            return stop(
-                "expected a mesh in proportion to its bytes, found more corners and attributes: save it without Draco");
+            return stop("expected a mesh in proportion to its bytes, found more corners and attributes");
         limits_.left -= elements * each;
         return true;
     }
@@ -166,11 +167,10 @@ public:
             fail("expected Draco data, found " + quote(bytes_.substr(0, 5)));
         // What glTF knows. Older data are read by other parts of the library, and metadata nest.
         if (header.version_major != 2 || header.version_minor != 2)
-            fail(fmt::format("expected Draco data of version 2.2, found version {}.{}: pack the mesh anew",
-                             header.version_major, header.version_minor));
+            fail(fmt::format("expected Draco data of version 2.2, found version {}.{}", header.version_major,
+                             header.version_minor));
         if (header.encoder_type != draco::TRIANGULAR_MESH) fail("expected a mesh, found Draco data of another kind");
-        if ((header.flags & METADATA_FLAG_MASK) != 0)
-            fail("expected Draco data without metadata, found some: save the mesh without them");
+        if ((header.flags & METADATA_FLAG_MASK) != 0) fail("expected Draco data without metadata, found some");
         if (header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING) {
             decode_with<draco::MeshEdgebreakerDecoder>(buffer, limits);
         } else if (header.encoder_method == draco::MESH_SEQUENTIAL_ENCODING) {
@@ -205,7 +205,7 @@ public:
     }
 
     [[noreturn]] void fail(const std::string& what) const {
-        file_.fail(fmt::format("glTF buffer view {}: {}", view_, what));
+        file_.refuse(fmt::format("glTF buffer view {}: {}{}", view_, what, advice), ErrorCode::file_format);
     }
 
 private:
@@ -264,7 +264,8 @@ private:
 DracoMesh decode_draco(GltfFile& file, const Json& primitive, const Json& extension, SceneBuilder& scene) {
     const Json* const attributes = extension.find("attributes");
     const Json* const accessors = primitive.find("attributes");
-    if (attributes == nullptr || accessors == nullptr) file.fail("expected attributes of Draco data, found none");
+    if (attributes == nullptr || accessors == nullptr)
+        file.refuse(fmt::format("expected attributes of Draco data, found none{}", advice), ErrorCode::file_format);
     const Json& positions = file.element("accessors", file.number(*accessors, "POSITION"));
     DracoLimits limits;
     limits.points = file.number(positions, "count");

@@ -24,9 +24,10 @@ std::uint32_t word(std::string_view bytes, std::size_t at) {
 
 /// Extensions that change nothing about where triangles are, or that are read.
 bool is_harmless(std::string_view extension) {
-    constexpr std::array<std::string_view, 10> prefixes{
-        "KHR_materials_", "KHR_technique", "KHR_texture_",          "EXT_texture_",  "MSFT_texture_",
-        "KHR_lights_",    "KHR_xmp",       "KHR_mesh_quantization", draco_extension, meshopt_extension};
+    constexpr std::array<std::string_view, 11> prefixes{"KHR_materials_",  "KHR_technique",         "KHR_texture_",
+                                                        "EXT_texture_",    "MSFT_texture_",         "KHR_lights_",
+                                                        "KHR_xmp",         "KHR_mesh_quantization", draco_extension,
+                                                        meshopt_extension, newer_meshopt_extension};
     return std::ranges::any_of(prefixes, [&](std::string_view prefix) { return extension.starts_with(prefix); });
 }
 
@@ -71,6 +72,10 @@ GltfFile::GltfFile(Input& input, std::filesystem::path folder)
 }
 
 void GltfFile::fail(const std::string& what, ErrorCode code) const {
+    refuse(with_advice(what, code), code);
+}
+
+void GltfFile::refuse(const std::string& what, ErrorCode code) const {
     throw Error(code, name_ + ": " + what);
 }
 
@@ -81,9 +86,10 @@ std::string_view GltfFile::open_container() {
     if (!all.starts_with(glb_magic)) return all;
     constexpr std::size_t header = 12;
     constexpr std::size_t chunk_header = 8;
-    if (all.size() < header) fail(fmt::format("byte {}: expected 12 bytes of a glTF header", all.size()));
+    if (all.size() < header)
+        fail(fmt::format("byte {}: expected 12 bytes of a glTF header, found the end of the file", all.size()));
     if (word(all, 4) != 2)
-        fail(fmt::format("expected binary glTF of version 2, found version {}", word(all, 4)),
+        fail(fmt::format("expected binary glTF of version 2, found version {}: save it as glTF 2.0", word(all, 4)),
              ErrorCode::unsupported_format);
     std::optional<std::string_view> json;
     std::size_t at = header;
@@ -120,7 +126,7 @@ void GltfFile::check_version() const {
     const Json* const asset = root_.find("asset");
     const std::string_view version = asset == nullptr ? std::string_view() : text(*asset, "version");
     if (version.starts_with("2.")) return;
-    fail(fmt::format("expected glTF of version 2, found {}",
+    fail(fmt::format("expected glTF of version 2, found {}: save it as glTF 2.0",
                      version.empty() ? "JSON that names no version of glTF" : "version " + quote(version)),
          ErrorCode::unsupported_format);
 }
@@ -234,19 +240,21 @@ std::string_view GltfFile::slice(const Json& json) {
     const std::uint64_t begin = find_number(json, "byteOffset").value_or(0);
     const std::uint64_t length = number(json, "byteLength");
     if (begin > all.size() || length > all.size() - begin)
-        fail(fmt::format("expected {} bytes of a glTF buffer view from byte {}, found a buffer of {}", length, begin,
-                         all.size()));
+        fail(fmt::format("glTF buffer {}: expected {} bytes of a buffer view from byte {}, found a buffer of {}",
+                         number(json, "buffer"), length, begin, all.size()));
     return all.substr(static_cast<std::size_t>(begin), static_cast<std::size_t>(length));
 }
 
 GltfView GltfFile::buffer_view(std::uint64_t number) {
     const Json& view = element("bufferViews", number);
     const std::uint64_t stride = find_number(view, "byteStride").value_or(0);
-    const Json* const packed = extension(view, meshopt_extension);
-    // What need not be unpacked is there without.
-    const bool unpacks =
-        packed != nullptr && (is_required(meshopt_extension) || !has_data(this->number(view, "buffer")));
-    if (!unpacks) return {slice(view), stride};
+    const Json* packed = nullptr;
+    for (const char* const name : {meshopt_extension, newer_meshopt_extension}) {
+        const Json* const found = extension(view, name);
+        // What need not be unpacked is there without.
+        if (found != nullptr && (is_required(name) || !has_data(this->number(view, "buffer")))) packed = found;
+    }
+    if (packed == nullptr) return {slice(view), stride};
     const auto found = unpacked_.find(number);
     if (found != unpacked_.end()) return {found->second, stride};
     return {unpacked_.emplace(number, unpack(view, *packed, number)).first->second, stride};
@@ -257,7 +265,10 @@ std::string GltfFile::unpack(const Json& view, const Json& packed, std::uint64_t
     const std::uint64_t length = this->number(view, "byteLength");
     // Many views may be unpacked from the same bytes.
     if (length > meshopt_growth * size_ - unpacked_bytes_)
-        fail(fmt::format("glTF buffer view {}: expected meshopt data in proportion to the file, found more", number));
+        refuse(fmt::format("glTF buffer view {}: expected meshopt data in proportion to the file, found more: save the "
+                           "mesh without meshopt compression",
+                           number),
+               ErrorCode::file_format);
     unpacked_bytes_ += length;
     return decode_meshopt(*this, packed, bytes, length, number);
 }
@@ -286,7 +297,8 @@ std::string_view GltfFile::read_beside(std::string_view uri) {
     const bool below = inside.is_relative() && std::ranges::find(inside, "..") == inside.end() &&
                        uri.find(':') == uri.npos && uri.find('\0') == uri.npos;
     if (folder_.empty() || !below)
-        fail(fmt::format("expected glTF data in the file or its folder, found that they are in {}", quote(uri)),
+        fail(fmt::format("expected glTF data in the file or its folder, found that they are in {}: put them beside it",
+                         quote(uri)),
              ErrorCode::unsupported_format);
     std::error_code error;
     const std::filesystem::path path = std::filesystem::canonical(folder_ / inside, error);

@@ -43,7 +43,10 @@ public:
     /// Whether the file can not be read without the extension.
     [[nodiscard]] bool is_required(std::string_view extension) const;
 
+    /// Advises to save damaged files anew.
     [[noreturn]] void fail(const std::string& what, ErrorCode code = ErrorCode::file_format) const;
+    /// For sentences with advice of their own.
+    [[noreturn]] void refuse(const std::string& what, ErrorCode code) const;
 
     /// The list of that name; an empty one where there is none.
     [[nodiscard]] const Json::List& list(const Json& object, const char* key) const;

@@ -89,7 +89,7 @@ bool is_wanted(std::size_t depth, bool names_extensions, const std::string& key)
     constexpr std::array wanted{"asset",  "scene",     "scenes",      "nodes",  "extensionsRequired",
                                 "meshes", "accessors", "bufferViews", "buffers"};
     if (depth == 1) return std::ranges::find(wanted, key) != wanted.end();
-    if (names_extensions) return key == draco_extension || key == meshopt_extension;
+    if (names_extensions) return key == draco_extension || key == meshopt_extension || key == newer_meshopt_extension;
     return key != "extras";
 }
 

@@ -62,6 +62,8 @@ inline constexpr std::size_t deepest_json = 100;
 /// The extensions that are kept.
 inline constexpr const char* draco_extension = "KHR_draco_mesh_compression";
 inline constexpr const char* meshopt_extension = "EXT_meshopt_compression";
+/// The same, and more that is refused where it is met.
+inline constexpr const char* newer_meshopt_extension = "KHR_meshopt_compression";
 
 /// Parses JSON without what does not say where triangles are: materials, pictures, animations and the like may be
 /// large. Time is linear. Returns what is wrong with the text, if anything is.

@@ -52,14 +52,17 @@ public:
             mode_ == "ATTRIBUTES"  ? meshopt_decodeVertexBuffer(to.data(), count, stride, from, packed.size())
             : mode_ == "TRIANGLES" ? meshopt_decodeIndexBuffer(to.data(), count, stride, from, packed.size())
                                    : meshopt_decodeIndexSequence(to.data(), count, stride, from, packed.size());
-        if (fault == -1) fail("expected meshopt data of mode " + std::string(mode_) + ", found another kind");
+        if (fault == -1)
+            fail("expected meshopt data of mode " + std::string(mode_) + ", found another kind or version");
         if (fault != 0) fail(fmt::format("expected {} meshopt elements, found damaged data", count));
         if (filter_ == "EXPONENTIAL") meshopt_decodeFilterExp(to.data(), count, stride);
     }
 
 private:
     [[noreturn]] void fail(const std::string& what) const {
-        file_.fail(fmt::format("glTF buffer view {}: {}", view_, what));
+        file_.refuse(
+            fmt::format("glTF buffer view {}: {}: save the mesh anew, or without meshopt compression", view_, what),
+            ErrorCode::file_format);
     }
 
     const GltfFile& file_;

@@ -1,5 +1,5 @@
 #pragma once
-// Buffer views that are packed by meshoptimizer (EXT_meshopt_compression).
+// Buffer views that are packed by meshoptimizer (EXT_meshopt_compression, or KHR_ with the same code).
 
 #include "io/gltf_file.hpp"
 

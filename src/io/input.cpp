@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace delmesh::io {
 
@@ -27,6 +28,11 @@ std::string quote(std::string_view text) {
         result += byte < 0x80 ? printable({&c, 1}) : fmt::format("\\x{:02x}", byte);
     }
     return result + (text.size() > longest ? "...'" : "'");
+}
+
+std::string with_advice(std::string sentence, ErrorCode code) {
+    const bool is_damage = code == ErrorCode::file_format || code == ErrorCode::index_out_of_range;
+    return is_damage ? std::move(sentence) + ": save the mesh anew" : std::move(sentence);
 }
 
 Input::Input(ByteSource& source, std::string_view name, std::size_t window)

@@ -46,9 +46,9 @@ PolygonSoup read_input(Input& input, std::optional<Format> hint, const ReadOptio
     const std::optional<Format> detected = detect_format(input);
     const std::optional<Format> format = options.format ? options.format : detected ? detected : hint;
     if (!format) {
-        throw Error(
-            ErrorCode::unsupported_format,
-            input.name() + ": expected PLY, OBJ, OFF, STL, glTF or 3MF, found none of them by content or extension");
+        throw Error(ErrorCode::unsupported_format, input.name() +
+                                                       ": expected PLY, OBJ, OFF, STL, glTF or 3MF, found none of them "
+                                                       "by content or extension: save the mesh as one of these");
     }
     SoupBuilder builder(options.damage);
     builder.salvage.attempt([&] { read_format(*format, input, builder, folder); });

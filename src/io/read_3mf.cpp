@@ -138,7 +138,8 @@ private:
             const std::string prefix(prefixes.substr(0, end));
             prefixes.remove_prefix(std::min(end + 1, prefixes.size()));
             if (prefix.empty() || std::ranges::find(harmless, xml_.name_space(prefix)) != harmless.end()) continue;
-            xml_.fail(fmt::format("expected plain 3MF, found that the extension {} is needed, which is not read",
+            xml_.fail(fmt::format("expected plain 3MF, found that the extension {} is needed, which is not read: save "
+                                  "the mesh without it",
                                   quote(prefix)),
                       ErrorCode::unsupported_format);
         }
@@ -197,8 +198,9 @@ std::string find_root(ZipArchive& archive) {
     };
     relationships.parse();
     if (root.empty())
-        throw Error(ErrorCode::unsupported_format,
-                    archive.name() + ": expected a 3MF package, found a ZIP archive that names no 3D model");
+        throw Error(
+            ErrorCode::unsupported_format,
+            archive.name() + ": expected a 3MF package, found a ZIP archive that names no 3D model: unpack it first");
     return root;
 }
 
@@ -242,7 +244,7 @@ private:
     }
 
     [[noreturn]] void fail(const std::string& what) const {
-        throw Error(ErrorCode::file_format, archive_.name() + ": " + what);
+        throw Error(ErrorCode::file_format, archive_.name() + ": " + with_advice(what, ErrorCode::file_format));
     }
 
     const Package& package_;

@@ -11,7 +11,8 @@ std::string read_all(Input& input) {
     while (input.ensure(1) > 0) {
         const std::string_view here = input.view();
         if (here.size() > most - bytes.size())
-            throw Error(ErrorCode::too_large, input.name() + ": expected less than 2 GiB, found more");
+            throw Error(ErrorCode::too_large,
+                        input.name() + ": expected less than 2 GiB, found more: save the mesh as binary PLY");
         bytes.append(here);
         input.skip(here.size());
     }

@@ -98,7 +98,7 @@ private:
     }
 
     Vec3 divide(const Vec3& point, double by) {
-        if (by == 0) scanner_.fail("expected a homogeneous coordinate other than 0");
+        if (by == 0) scanner_.fail("expected a homogeneous coordinate other than 0, found 0");
         return {point.x / by, point.y / by, point.z / by};
     }
 

@@ -28,7 +28,7 @@ public:
         integer();  // the number of edges is not used
         if (!ok() || !read_points(dimension, builder.soup.points) || !read_faces(faces, builder)) return false;
         const bool documented = order == std::endian::big && face_colours;
-        return documented || position_ == data_.size() || fail("expected the end of the file");
+        return documented || position_ == data_.size() || fail("expected the end of the file, found more data");
     }
 
     [[nodiscard]] const std::string& problem() const { return problem_; }
@@ -61,7 +61,9 @@ private:
 
     bool read_points(std::uint32_t dimension, std::vector<Vec3>& points) {
         if (dimension == 0) return fail("expected vertices of one dimension or more, found 0");
-        if (points_ == most_points) return fail("expected fewer vertices", ErrorCode::too_large);
+        if (points_ == most_points)
+            return fail(fmt::format("expected fewer than {} vertices, found {}", most_points, points_),
+                        ErrorCode::too_large);
         const std::uint64_t used = std::uint64_t{dimension} + kind_.homogeneous;
         const std::uint64_t numbers = used + 3u * kind_.normals + 4u * kind_.colours + 2u * kind_.texture;
         if (!has(points_, 4 * numbers, "vertices")) return false;
@@ -71,7 +73,7 @@ private:
             for (std::uint32_t i = 0; i < std::min(dimension, 3u); ++i) point[static_cast<int>(i)] = number(i);
             if (kind_.homogeneous) {
                 const double by = number(used - 1);
-                if (by == 0) return fail("expected a homogeneous coordinate other than 0");
+                if (by == 0) return fail("expected a homogeneous coordinate other than 0, found 0");
                 point = {point.x / by, point.y / by, point.z / by};
             }
             points.push_back(point);

@@ -18,9 +18,9 @@ void SceneBuilder::set_file_bytes(std::uint64_t file_bytes) {
 
 void SceneBuilder::expect(std::uint64_t elements) {
     if (elements > left())
-        throw Error(
-            ErrorCode::file_format,
-            name_ + ": expected a scene in proportion to its file, found one that repeats its meshes too often");
+        throw Error(ErrorCode::file_format, name_ +
+                                                ": expected a scene in proportion to its file, found one that repeats "
+                                                "its meshes too often: save them one by one");
     taken_ += elements;
 }
 

@@ -60,7 +60,7 @@ public:
     std::size_t read(char* to, std::size_t capacity) {
         const std::size_t n = decode(to, std::min<std::size_t>(capacity, std::numeric_limits<unsigned>::max()));
         given_ += n;
-        if (grows_absurdly(given_, position())) fail(absurd_growth(format_));
+        if (grows_absurdly(given_, position())) fail(absurd_growth(format_) + ": unpack them first");
         return n;
     }
 

@@ -35,7 +35,7 @@ char* store_floats(char* to, const Vec3& p) {
 
 void write_binary(OutputFile& file, const Surface& surface) {
     if (surface.face_count() > std::numeric_limits<std::uint32_t>::max()) {
-        throw Error(ErrorCode::too_large, "a binary STL file holds at most 4294967295 faces");
+        throw Error(ErrorCode::too_large, "expected at most 4294967295 faces for binary STL, found more: write PLY");
     }
     // Must not begin with "solid", which would make it an ascii file to many readers.
     char header[header_bytes] = "binary STL written by delmesh";

@@ -45,7 +45,7 @@ std::string XmlPart::name_space(const std::string& prefix) const {
 
 void XmlPart::fail(const std::string& what, ErrorCode code) const {
     throw Error(code, fmt::format("{}: {}: line {}: {}", archive_.name(), quote(part_),
-                                  XML_GetCurrentLineNumber(parser_.get()), what));
+                                  XML_GetCurrentLineNumber(parser_.get()), with_advice(what, code)));
 }
 
 template <class Call>

@@ -24,8 +24,11 @@ bool lacks_memory(zip_error_t* error) {
     const std::string reason = zip_error_strerror(&error);
     zip_error_fini(&error);
     if (no_memory) throw std::bad_alloc();
-    throw Error(ErrorCode::file_format,
-                fmt::format("{}: expected a ZIP archive, found damaged data ({})", name, printable(reason)));
+    throw Error(
+        ErrorCode::file_format,
+        fmt::format("{}: {}", name,
+                    with_advice(fmt::format("expected a ZIP archive, found damaged data ({})", printable(reason)),
+                                ErrorCode::file_format)));
 }
 
 zip_t* open(const std::string& bytes, const std::string& name) {
@@ -51,7 +54,8 @@ ZipArchive::ZipArchive(Input& input)
       archive_(open(bytes_, name_), &zip_discard) {}
 
 void ZipArchive::fail(const std::string& path, const std::string& what) const {
-    throw Error(ErrorCode::file_format, fmt::format("{}: {}: {}", name_, quote(path), what));
+    throw Error(ErrorCode::file_format,
+                fmt::format("{}: {}: {}", name_, quote(path), with_advice(what, ErrorCode::file_format)));
 }
 
 void ZipArchive::read(const std::string& path, const std::function<void(std::string_view, bool)>& take) {

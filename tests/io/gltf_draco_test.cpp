@@ -135,7 +135,7 @@ TEST(GltfDraco, DamageIsNamed) {
         SCOPED_TRACE(at);
         test::expect_parse_error(file, "a.glb", message);
     };
-    expect_data(0, 'd', place + "Draco data, found 'dRACO'");
+    expect_data(0, 'd', place + "Draco data, found 'dRACO': save the mesh anew, or without Draco");
     expect_data(5, 1, place + "Draco data of version 2.2, found version 1.2");
     expect_data(6, 3, "found version 2.3");
     expect_data(8, 2, place + "Draco data of one of its two methods, found another");

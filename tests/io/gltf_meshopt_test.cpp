@@ -109,6 +109,18 @@ TEST(GltfMeshopt, PlainDataGoFirstWhereTheyMay) {
     }
 }
 
+/// Its newer name may also hold a newer code of vertices, which the first byte tells.
+TEST(GltfMeshopt, IsReadByItsNewerNameToo) {
+    const PolygonSoup soup = torus();
+    std::string file = test::meshopt_glb(file_of(soup));
+    for (std::size_t at = 0; (at = file.find("EXT_meshopt", at)) != std::string::npos;) file.replace(at, 3, "KHR");
+    EXPECT_EQ(triangles(test::parse(file, "a.glb")), triangles(soup));
+    const std::size_t code = file.find(std::string("BIN\0", 4)) + 4;
+    ASSERT_EQ(file[code], '\xa0');
+    file[code] = '\xa1';
+    test::expect_parse_error(file, "a.glb", "mode ATTRIBUTES, found another kind or version: save the mesh anew, or");
+}
+
 TEST(GltfMeshopt, DamageIsNamed) {
     const std::string whole = test::meshopt_glb(file_of(torus()));
     const auto expect = [&](const std::string& from, const std::string& to, const std::string& message,
@@ -125,7 +137,8 @@ TEST(GltfMeshopt, DamageIsNamed) {
     expect("ATTRIBUTES", "SOMETHING", "buffer view 0: expected meshopt data of mode ATTRIBUTES, TRIANGLES or INDICES");
     expect("ATTRIBUTES", "TRIANGLES", "buffer view 0: expected a stride that meshopt mode TRIANGLES allows, found 12");
     expect("NONE", "OCTAHEDRAL", "buffer view 0: expected meshopt mode ATTRIBUTES without a filter for other data");
-    expect("TRIANGLES", "INDICES", "buffer view 1: expected 624 meshopt elements, found damaged data");
+    expect("TRIANGLES", "INDICES",
+           "buffer view 1: expected 624 meshopt elements, found damaged data: save the mesh anew, or without meshopt");
     expect(found, elements(12, 999), "expected " + length + " bytes as 999 meshopt elements of 12 bytes, found others");
     expect(found, elements(12, points + (std::uint64_t{1} << 62)), "expected " + length + " bytes as 46116860184273");
     expect(found, elements(10, points), "allows, found 10");

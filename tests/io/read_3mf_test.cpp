@@ -70,7 +70,7 @@ TEST(Read3mf, DamageIsNamed) {
     expect_model_error(
         "<object id=\"1\"><mesh><triangles><triangle v1=\"0\" v2=\"0\" v3=\"0\"/></triangles></mesh></object>", item,
         "below 0, found 0", ErrorCode::index_out_of_range);
-    expect_model_error(tetrahedron_3mf(1) + tetrahedron_3mf(1), item, "found 1 again");
+    expect_model_error(tetrahedron_3mf(1) + tetrahedron_3mf(1), item, "found 1 again: save the mesh anew");
     expect_model_error(tetrahedron_3mf(1), "<item objectid=\"2\"/>", "found number 2");
     expect_model_error(tetrahedron_3mf(1), "<item objectid=\"1\" transform=\"1 2 3\"/>", "twelve numbers");
     expect_model_error("<vertex x=\"0\" y=\"0\" z=\"0\"/>", item, "found it outside");

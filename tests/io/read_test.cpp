@@ -47,7 +47,8 @@ TEST(Read, AFormatThatIsGivenDecides) {
 }
 
 TEST(Read, OtherFormatsAreNamed) {
-    test::expect_parse_error("BZh91AY", "a.ply", "found bzip2 data", ErrorCode::unsupported_format);
+    test::expect_parse_error("BZh91AY", "a.ply", "found bzip2 data, which is not read: unpack it first",
+                             ErrorCode::unsupported_format);
     test::expect_parse_error("7zXZ\xfd", "a.xz", "found none of them", ErrorCode::unsupported_format);
 }
 
