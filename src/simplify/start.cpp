@@ -16,6 +16,8 @@ namespace {
 /// Where remeshing stops short or more than doubles the vertices, the mesh is thinned out to so many times those asked
 /// for first.
 constexpr std::size_t thin_from = 2;
+/// More points than that, or than there are vertices, and a search pays.
+constexpr std::size_t many_points = 20'000;
 /// Tried where the angle asked for needs too many vertices; after that all edges may flip.
 constexpr double wider_angle_deg = 45;
 
@@ -33,18 +35,22 @@ Remeshed remeshed(const Mesh& mesh, const RemeshOptions& options, const Context*
     return result;
 }
 
+/// With no more points than can be of use where there is another way: they would only take their memory.
+RemeshOptions with_few_more(const RemeshOptions& options, std::size_t vertices) {
+    return with_at_most(options, vertices + std::max(many_points, vertices));
+}
+
 /// Points by shells are as good as any where they are few, since most go again; where they are many they stand in each
 /// other's way, and a search for fewer pays (unless there are so many that it would take longer than all the rest).
 Remeshed with_few_points(const Mesh& mesh, const RemeshOptions& options, const Context* context) {
     if (options.placement == SplitPlacement::shells) return remeshed(mesh, options, context);
-    constexpr std::size_t searched_for = 20'000;
     const std::size_t vertices = mesh.vertex_count();
-    RemeshOptions shells = with_at_most(options, vertices + std::max(searched_for, vertices));
+    RemeshOptions shells = with_few_more(options, vertices);
     shells.placement = SplitPlacement::shells;
     {
         Remeshed by_shells = remeshed(mesh, shells, context);
         const std::size_t splits = by_shells.report.splits;
-        const bool is_enough = splits <= vertices / 10 || splits > searched_for;
+        const bool is_enough = splits <= vertices / 10 || splits > many_points;
         if (by_shells.cancelled() || (by_shells.done() && is_enough)) return by_shells;
     }
     return remeshed(mesh, options, context);
@@ -117,8 +123,9 @@ bool make_start_delaunay(Mesh& mesh, const SimplifyOptions& options, const Tunin
         return true;
     };
     const std::size_t vertices = mesh.vertex_count();
-    Remeshed first = with_few_points(mesh, how, context);
     const bool may_thin = limits.may_thin && thin_from * limits.vertices < vertices;
+    const RemeshOptions few = may_thin ? with_few_more(how, vertices) : how;
+    Remeshed first = with_few_points(mesh, few, context);
     if (first.cancelled() || (first.done() && (first.report.splits <= vertices || !may_thin)))
         return take(std::move(first), how.feature_angle_deg, 0);
     if (!may_thin) {  // the same angle would fail again
@@ -127,11 +134,15 @@ bool make_start_delaunay(Mesh& mesh, const SimplifyOptions& options, const Tunin
         how.feature_angle_deg = wider(how.feature_angle_deg);
     }
     if (!first.done()) first.mesh = {};
+    const bool is_cut_short = !first.done() && few.max_vertices != how.max_vertices;
+    const Mesh original = is_cut_short ? mesh : Mesh();
 
     if (may_thin) thin_out(mesh, tuning, how.precision, thin_from * limits.vertices, context);
     const std::size_t thinned_to = may_thin ? mesh.vertex_count() : 0;
     double angle_deg = 0;
     Remeshed second = with_wider_angles(mesh, how, angle_deg, context);
+    const bool is_worse = !second.done() || second.mesh.vertex_count() > few.max_vertices;
+    if (is_cut_short && is_worse && !second.cancelled()) first = with_few_points(original, how, context);
     if (first.done() && !(second.done() && second.mesh.vertex_count() < first.mesh.vertex_count()))
         return take(std::move(first), how.feature_angle_deg, 0);
     return take(std::move(second), angle_deg, thinned_to);
