@@ -109,7 +109,8 @@ private:
         const bool explodes = most_by_plan_ == unlimited_splits && !trial->done() && !trial->cancelled();
         if (explodes && may_part_ && !has_sliced_ && !has_other_way_) {
             has_sliced_ = true;
-            return try_slices(from_, std::move(trial));
+            // Of one whose plan is kept only the report is needed: see `by_failed_plans`.
+            return try_slices(from_, std::move(trial), !failed_.empty());
         }
         if (!planner.leaves_open() || trial->done() || trial->cancelled()) return trial;
         trial.reset();

@@ -146,23 +146,24 @@ struct Attempt {
 };
 
 /// `most_splits` over and above the limit in the options.
-Attempt attempt(const Mesh& mesh, Way way, std::size_t most_splits, const RemeshOptions& options,
-                const Context* context, const RemeshReport& so_far, double caps) {
+Attempt attempt(Mesh mesh, Way way, std::size_t most_splits, const RemeshOptions& options, const Context* context,
+                const RemeshReport& so_far, double caps) {
     const RemeshOptions bounded = with_at_most(options, mesh.vertex_count() + most_splits);
-    Attempt result{mesh, so_far};
+    Attempt result{std::move(mesh), so_far};
     flip_surface(result.mesh, way, bounded, context, result.report, nullptr, caps);
     return result;
 }
 
 /// The better of the two ways, the patient one if neither ends: what has exploded is not kept meanwhile. The mesh stays
-/// as it is only if neither ends.
-Attempt better_way(Mesh& mesh, std::size_t most_splits, const RemeshOptions& options, const Context* context,
-                   const RemeshReport& so_far, double caps = 0) {
+/// as it is only if neither ends, and only if it is `needed`.
+Attempt better_way(Mesh& mesh, bool needed, std::size_t most_splits, const RemeshOptions& options,
+                   const Context* context, const RemeshReport& so_far, double caps = 0) {
     Attempt published = attempt(mesh, Way::published, most_splits, options, context, so_far, caps);
     if (published.cancelled() || (published.done() && published.report.splits == 0)) return published;
     if (!published.done()) {
         published = {};
-        return attempt(mesh, Way::patient, most_splits, options, context, so_far, caps);
+        if (needed) return attempt(mesh, Way::patient, most_splits, options, context, so_far, caps);
+        return attempt(std::move(mesh), Way::patient, most_splits, options, context, so_far, caps);
     }
     // One of the two is the result, so the input is needed no more, and a copy would be one mesh too many.
     RemeshReport patient = so_far;
@@ -189,7 +190,7 @@ Attempt without_flat_caps(const Mesh& mesh, std::size_t most_splits, const Remes
     Mesh flattened = mesh;
     const FlatCaps caps = flip_flat_caps(flattened, frame, tolerance, context);
     if (caps.flips == 0) return result;
-    result = better_way(flattened, most_splits, options, context, so_far, tolerance);
+    result = better_way(flattened, false, most_splits, options, context, so_far, tolerance);
     result.report.flips += caps.flips;
     result.report.flat_tolerance += frame.length(tolerance);
     result.report.max_deviation += frame.length(caps.moved);
@@ -217,13 +218,13 @@ Attempt best_way(Mesh& mesh, const RemeshOptions& options, const Context* contex
     Attempt flattened = without_flat_caps(mesh, few, options, context, so_far);
     if (flattened.cancelled()) return flattened;
     const std::size_t most = flattened.done() ? most_beside(flattened.report.splits) : few;
-    Attempt best = better_way(mesh, most, options, context, so_far);
+    Attempt best = better_way(mesh, true, most, options, context, so_far);
     if (best.done() || best.cancelled()) return best;
     if (flattened.done()) return flattened;
     const bool limited = options.max_vertices != 0 && options.max_vertices <= mesh.vertex_count() + few;
     if (best.report.stop != StopReason::max_vertices || limited) return best;
     best = {};
-    return better_way(mesh, std::numeric_limits<std::uint32_t>::max(), options, context, so_far);
+    return better_way(mesh, false, std::numeric_limits<std::uint32_t>::max(), options, context, so_far);
 }
 
 }  // namespace

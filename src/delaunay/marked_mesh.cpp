@@ -200,6 +200,13 @@ void MarkedMesh::forget_marks() {
     hubs_.clear();
 }
 
+void MarkedMesh::forget_all() {
+    forget_marks();
+    mesh_ = Mesh();
+    let_go(facets_);
+    let_go(splits_);
+}
+
 Provenance MarkedMesh::take_provenance() {
     Provenance result;
     result.input_vertices = input_vertices_;

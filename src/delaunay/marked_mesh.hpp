@@ -91,6 +91,8 @@ public:
     void reserve_splits(std::size_t count);
     /// For a mesh that is finished: no flips or splits after that.
     void forget_marks();
+    /// For a mesh that is of no more use: gives back all room, the mesh's too.
+    void forget_all();
     /// Hands over the facets and splits. The object is of no more use.
     [[nodiscard]] Provenance take_provenance();
 

@@ -25,12 +25,13 @@ constexpr std::size_t shells_share = 8;
 
 }  // namespace
 
-TrialPointer try_slices(const TrialStart& from, TrialPointer exploded) {
+TrialPointer try_slices(const TrialStart& from, TrialPointer exploded, bool is_spare) {
     const RemeshOptions& options = from.options;
     const double ulp = options.precision == Precision::float32 ? 0x1p-24 : 0x1p-53;
     TrialPointer trial = std::move(exploded);
     std::vector<std::array<VertexId, 2>> broken;
     for (const SliceOptions& way : ways) {
+        if (is_spare) trial->marked.forget_all();
         std::vector<SplitPoint> none;
         SplitPlanner planner(from.marked, from.start.bad, {static_cast<int>(options.effort), options.seed}, none);
         const auto plan =
