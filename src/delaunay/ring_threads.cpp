@@ -216,29 +216,53 @@ std::size_t RingThreads::bad_parts(int border, const Thread& below, const Thread
     return bad;
 }
 
-/// Threads from one border on, each as far from the last one as can be; where that leads nowhere, a little less.
-void RingThreads::grow(int border) {
+/// One thread more from a border, as far from the last one as can be; where that leads nowhere, one less. False at the
+/// end.
+bool RingThreads::grow_once(int border) {
     std::vector<Thread>& threads = threads_[border];
-    threads.assign(1, Thread(rungs_.size(), 0));
-    std::vector<Try> chosen{{0, nearest * shortest_}};
-    std::size_t from = 0;
-    int dead_ends = 0;
+    auto& [chosen, from, tries, dead_ends] = growth_[border];
     const std::size_t most = std::clamp(most_work / rungs_.size(), least_tries, most_tries);
-    for (std::size_t tries = 0; threads.size() <= most_threads && tries < most;) {
-        Try next{from, 0};
-        const bool found = find_next(border, threads.back(), chosen.back().distance, next, tries);
-        if (found) {
-            threads.push_back(thread_);
-            chosen.push_back(next);
-            from = 0;
-        } else {
-            if (threads.size() == 1 || chosen.back().distance >= far_enough * shortest_) return;
-            if (++dead_ends > most_dead_ends) return;
-            from = chosen.back().number + 1;
-            threads.pop_back();
-            chosen.pop_back();
+    if (threads.size() > most_threads || tries >= most) return false;
+    Try next{from, 0};
+    if (find_next(border, threads.back(), chosen.back().distance, next, tries)) {
+        threads.push_back(thread_);
+        chosen.push_back(next);
+        from = 0;
+        return true;
+    }
+    if (threads.size() == 1 || chosen.back().distance >= far_enough * shortest_) return false;
+    if (++dead_ends > most_dead_ends) return false;
+    from = chosen.back().number + 1;
+    threads.pop_back();
+    chosen.pop_back();
+    return true;
+}
+
+/// Begins at a border.
+void RingThreads::start(int border) {
+    threads_[border].assign(1, Thread(rungs_.size(), 0));
+    growth_[border] = {{{0, nearest * shortest_}}, 0, 0, 0};
+}
+
+void RingThreads::grow(int border) {
+    start(border);
+    while (grow_once(border)) {
+    }
+}
+
+/// From both borders by turns, no farther than is needed if that is not far.
+bool RingThreads::grow_until_joined() {
+    for (const int border : {0, 1}) start(border);
+    if (meets_last(0)) return true;
+    for (std::array<bool, 2> grows{true, true}; grows[0] || grows[1];) {
+        for (const int border : {0, 1}) {
+            if (!grows[border]) continue;
+            const std::size_t before = threads_[border].size();
+            grows[border] = grow_once(border);
+            if (threads_[border].size() > before && meets_last(border)) return true;
         }
     }
+    return join(0);
 }
 
 /// Distances to try beyond a thread at `last`, the farthest first.
@@ -308,6 +332,20 @@ bool RingThreads::join(std::size_t most) {
     return found;
 }
 
+/// Does the last thread from a border leave no part bad between itself and one from the other border, few in all?
+bool RingThreads::meets_last(int border) {
+    std::array<std::size_t, 2> at{threads_[0].size() - 1, threads_[1].size() - 1};
+    Thread other;
+    for (std::size_t i = 0; i < threads_[1 - border].size() && at[border] + i <= few_threads; ++i) {
+        at[1 - border] = i;
+        if (border == 0 || i == 0) mirror(threads_[1][at[1]], other);
+        if (bad_parts(0, threads_[0][at[0]], other, 0) > 0) continue;
+        from_border_ = at;
+        return true;
+    }
+    return false;
+}
+
 bool RingThreads::plan(std::span<const Rung> rungs, bool is_quick) {
     rungs_ = rungs;
     step_ = is_quick ? coarser : finer;
@@ -316,6 +354,10 @@ bool RingThreads::plan(std::span<const Rung> rungs, bool is_quick) {
     std::size_t fewest = 0;
     for (const Taste& taste : tastes) {
         taste_ = taste;
+        if (is_quick) {
+            if (grow_until_joined()) return true;
+            continue;
+        }
         grow(0);
         grow(1);
         if (!join(0) || (fewest > 0 && count() >= fewest)) continue;
@@ -324,7 +366,7 @@ bool RingThreads::plan(std::span<const Rung> rungs, bool is_quick) {
             best_[i] = threads_[i];
             best_[i].resize(from_border_[i] + 1);
         }
-        if (is_quick || fewest <= few_threads) break;
+        if (fewest <= few_threads) break;
     }
     if (fewest == 0) return join(rungs.size() / few_bad);
     threads_ = best_;

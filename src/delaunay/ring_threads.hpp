@@ -56,6 +56,13 @@ private:
         std::size_t number = 0;
         double distance = 0;
     };
+    /// From one border.
+    struct Growth {
+        std::vector<Try> chosen;  ///< the tries that the threads come from
+        std::size_t from = 0;     ///< the number of the next one
+        std::size_t tries = 0;
+        int dead_ends = 0;
+    };
     using Joints = std::vector<Joint>;  ///< as seen from one border
 
     bool lay_out(std::span<const Rung> rungs);
@@ -68,10 +75,14 @@ private:
     [[nodiscard]] bool fits(int border, const Thread& below, const Thread& above) const {
         return bad_parts(border, below, above, 0) == 0;
     }
+    void start(int border);
+    [[nodiscard]] bool grow_once(int border);
     void grow(int border);
+    [[nodiscard]] bool grow_until_joined();
     void list_distances(double last);
     [[nodiscard]] bool find_next(int border, const Thread& below, double last, Try& next, std::size_t& tries);
     [[nodiscard]] bool join(std::size_t most);
+    [[nodiscard]] bool meets_last(int border);
     void mirror(const Thread& thread, Thread& other) const;
 
     const SplitModel& model_;
@@ -84,6 +95,7 @@ private:
     std::array<std::vector<double>, styles> sizes_;  ///< for each rung: what is wide enough for threads to go farther
     std::array<Joints, 2> joints_;
     std::array<std::vector<Thread>, 2> threads_;
+    std::array<Growth, 2> growth_;
     std::array<std::vector<Thread>, 2> best_;
     std::array<std::size_t, 2> from_border_{};
     std::vector<double> stiffness_;
