@@ -108,7 +108,7 @@ bool SplitRepair::run(std::size_t max_points, std::size_t steps, bool last_first
         if (10 * model_.point_count() + suspect_price * model_.suspect_count() > 10 * max_points) return false;
         model_.add_weight(e, weight_step);
         const auto part = static_cast<std::size_t>(bad);
-        if (!random_.chance(self_share_) && resolve_culprit(e, part)) continue;
+        if (self_share_ < 1 && !random_.chance(self_share_) && resolve_culprit(e, part)) continue;
         if (!model_.is_movable(e)) return false;
         model_.drop_suspect(i);
         resolve(e, part);

@@ -15,10 +15,9 @@ public:
     SplitRepair(SplitModel& model, Random& random) : model_(model), random_(random), response_(model, random) {}
 
     /// See BestResponse.
-    void be_quick() {
-        response_.be_quick();
-        self_share_ = quick_self_share;
-    }
+    void be_quick() { response_.be_quick(); }
+    /// Of the steps, those that place points on the bad edge itself and not on the one that it sees.
+    void set_self_share(double share) { self_share_ = share; }
 
     /// Works off the model's suspects: places new points on an edge with bad parts, or on the edge whose point such a
     /// part sees. Each time an edge turns up its weight grows, so that others avoid to make it bad. False as soon as
@@ -38,8 +37,6 @@ public:
     [[nodiscard]] bool is_exhausted() const { return model_.work() >= work_limit_; }
 
 private:
-    static constexpr double quick_self_share = 0.65;
-
     void resolve(std::uint32_t e, std::size_t part);
     bool resolve_culprit(std::uint32_t e, std::size_t part);
     void replace(std::uint32_t e, std::size_t first, std::size_t last);
@@ -49,7 +46,6 @@ private:
     SplitModel& model_;
     Random& random_;
     BestResponse response_;
-    /// Of the steps, those that place points on the bad edge itself and not on the one that it sees.
     double self_share_ = 0.45;
     std::uint64_t work_limit_ = ~std::uint64_t{0};
 };

@@ -12,6 +12,9 @@ namespace {
 constexpr int first_rounds = 6;
 constexpr std::size_t first_steps = 50;
 constexpr std::array<std::size_t, 4> quick_steps{12, 48, 48, 96};
+/// In later rounds, see SplitRepair. In the first one edges mend themselves: that takes fewer steps, and no more
+/// points.
+constexpr double quick_self_share = 0.65;
 constexpr std::size_t most_quickly_weaved = 128;
 constexpr std::uint64_t ring_share = 5;  ///< of quick work, where there are rings
 constexpr std::uint64_t foot_share = 2;  ///< the same, where edges are open in the end
@@ -96,6 +99,7 @@ void SplitSearch::construct_quickly(const std::vector<std::uint32_t>& bad_edges,
     set_open({bad_edges.begin(), bad_edges.begin() + static_cast<std::ptrdiff_t>(known)});
     for (std::size_t round = 0; round < quick_steps.size(); ++round) {
         repair_.set_work_limit(end);
+        repair_.set_self_share(round == 0 ? 1 : quick_self_share);
         close_each([&](std::uint32_t e) {
             return !repair_.is_exhausted() && attempt(e, quick_steps[round], round > 0 && random_.chance(0.7));
         });
