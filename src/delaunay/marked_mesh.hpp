@@ -66,6 +66,7 @@ public:
     [[nodiscard]] bool is_flippable(HalfedgeId h);
     /// Tells which facets are only nearly plane.
     void set_flat_facets(FlatFacets flat) { flat_ = std::move(flat); }
+    [[nodiscard]] bool has_flat_facets() const { return !flat_.plane_of.empty(); }
     /// Does the flip of a planar edge keep its facet from folding? Always true in exactly plane facets.
     [[nodiscard]] bool keeps_unfolded(HalfedgeId h) const {
         return flat_.plane_of.empty() || keeps_unfolded_in(flat_.plane_of[facets_[Mesh::face(h).index()].index()], h);

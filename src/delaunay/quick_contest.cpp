@@ -1,6 +1,7 @@
 #include "delaunay/quick_contest.hpp"
 
 #include "delaunay/choose_splits.hpp"
+#include "delaunay/shell_bound.hpp"
 #include "delaunay/split_trial.hpp"
 
 #include <algorithm>
@@ -52,6 +53,7 @@ void preserve_quickly(MarkedMesh& marked, const RemeshOptions& options, const Co
         ours.reset();  // to make room
         return take(*shells_first(from));
     }
+    if (shells_need_more_than(marked, start.bad, options, ours->report.splits)) return take(*ours);
     RemeshReport by_shells = report;
     const std::size_t most = ours->report.splits - 1;
     marked.reserve_splits(std::min(most, 6 * least));
