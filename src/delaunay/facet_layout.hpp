@@ -47,6 +47,14 @@ struct Side {
     [[nodiscard]] Point2 turn(Point2 d) const { return {dot(x_row, d), dot(y_row, d)}; }
 };
 
+/// A side in the plane of its facet, from its smaller vertex on. The facet lies to the left, or to the right if
+/// `mirrored`.
+struct SideLine {
+    Point2 start;
+    Point2 along;
+    bool mirrored = false;
+};
+
 /// A triangle of a facet that has several.
 struct FacetTriangle {
     std::array<std::uint32_t, 3> corner{};
@@ -93,6 +101,8 @@ public:
     [[nodiscard]] std::size_t edge_capacity() const { return edges_.capacity(); }
     [[nodiscard]] const Edge& edge(std::uint32_t e) const { return edges_[e]; }
     [[nodiscard]] Side side(std::uint32_t s) const;
+    /// A part of side(s), which takes a fraction of the time.
+    [[nodiscard]] SideLine line(std::uint32_t s) const;
     /// Another side of the same facet in the frame of `side`, which is side s: from where it starts, and along it.
     [[nodiscard]] std::pair<Point2, Point2> seen_from(const Side& side, std::uint32_t s, std::uint32_t other) const;
     /// side(s).edge.
@@ -151,6 +161,15 @@ private:
     std::vector<FaceId> faces_;                                      ///< of the facet that is being made, sorted
     std::vector<std::pair<VertexId, std::uint32_t>> local_corners_;  ///< the same, sorted by vertex
 };
+
+inline SideLine FacetLayout::line(std::uint32_t s) const {
+    const SideRecord& record = records_[s];
+    const auto point = [&](std::uint32_t i) {
+        return corners_[record.single ? record.place + i : triangles_[record.place].corner[i]];
+    };
+    const Point2 start = point(record.start());
+    return {start, point(record.end()) - start, !record.forward};
+}
 
 inline Side FacetLayout::side(std::uint32_t s) const {
     const SideRecord& record = records_[s];

@@ -60,6 +60,13 @@ std::uint32_t SplitModel::allocate(std::uint8_t size_class) {
     return first;
 }
 
+/// No facet has points when its sides are made.
+double SplitModel::cot_at_corner(std::uint32_t s) const {
+    const Side side = layout_.side(s);
+    work_ += layout_.facet(side.facet).single ? 1 : corner_work;
+    return cot_of(0, 1, side.apex);
+}
+
 void SplitModel::make(std::uint32_t e) {
     grow_states();
     if (states_[e].made) return;
@@ -69,9 +76,7 @@ void SplitModel::make(std::uint32_t e) {
     for (int k = 0; k < 2; ++k) {
         const std::uint32_t s = layout_.edge(e).side[k];
         if (s == none) continue;
-        const Contact contact = nearest(s, 0, 1);
-        part.cot[k] = contact.cot;
-        part.culprit[k] = contact.edge;
+        part.cot[k] = trusts_triangles_ ? cot_at_corner(s) : nearest(s, 0, 1).cot;
     }
     State& state = states_[e];
     state.made = true;
@@ -234,8 +239,63 @@ void SplitModel::cut(std::uint32_t e, std::size_t first, std::size_t last, std::
 void SplitModel::touch_facet(std::uint32_t e, std::uint32_t side, std::span<const double> points, bool removed) {
     const Facet& facet = layout_.facet(layout_.facet_at(side));
     if (!facet.single) work_ += side_work_ * facet.side_count;  // beside its parts
+    placed_.clear();
+    if (!points.empty() && points.size() <= few) {
+        const SideLine line = layout_.line(side);
+        placed_ = {line.start, line.start + line.along};
+        placed_along_ = line.along;
+        for (const double u : points) placed_.push_back(line.start + u * line.along);
+    }
     for (std::uint32_t s = facet.first_side; s < facet.first_side + facet.side_count; ++s)
-        if (layout_.edge_at(s) != e) touch_side(e, side, s, points, removed);
+        if (layout_.edge_at(s) != e && !stays(e, s, facet.single, removed)) touch_side(e, side, s, points, removed);
+}
+
+/// What `touch_side` finds at first, to the last bit.
+bool SplitModel::lies_flat(const SideLine& line) const {
+    const double inverse = 1 / dot(line.along, line.along);
+    const Point2 x_row = inverse * line.along;
+    const Point2 y_row = (line.mirrored ? -1.0 : 1.0) * Point2{-x_row.y, x_row.x};
+    const double y = dot(y_row, placed_[0] - line.start);
+    return y <= flat && y + dot(y_row, placed_along_) <= flat;
+}
+
+/// True if it is clear, by more than rounding can change, that `touch_side` would find nothing: it is asked for each
+/// side of a facet, and few of them see the new points under the largest angle.
+bool SplitModel::stays(std::uint32_t e, std::uint32_t s, bool is_single, bool removed) const {
+    constexpr double slack = 1e-12;
+    if (placed_.empty()) return false;
+    const SideLine line = layout_.line(s);
+    const Point2 left{line.mirrored ? line.along.y : -line.along.y, line.mirrored ? -line.along.x : line.along.x};
+    const double length2 = dot(line.along, line.along);
+    bool is_seen = false;
+    bool is_flat = true;
+    for (std::size_t i = 0; i < 2; ++i) {
+        const Point2 r = placed_[i] - line.start;
+        const double height = dot(left, r);
+        const double r2 = dot(r, r);
+        is_seen = is_seen || height > 100 * slack * (length2 + r2);
+        is_flat = is_flat && (height <= 0.5 * flat * length2 && r2 <= 100 * length2);
+    }
+    if (!is_seen) return is_flat || (!is_single && lies_flat(line));
+    const std::uint32_t other = layout_.edge_at(s);
+    const std::size_t k = layout_.edge(other).side[0] == s ? 0 : 1;
+    const auto all = parts(other);
+    for (std::size_t i = 2; i < placed_.size(); ++i) {
+        const Point2 r = placed_[i] - line.start;
+        const double r2 = dot(r, r);
+        const double height = dot(left, r);
+        const double along = dot(line.along, r);
+        double a = 0;
+        for (const Part& part : all) {
+            const double cot = part.cot[k];
+            const double excess = r2 - (a + part.end) * along + a * part.end * length2 - cot * (part.end - a) * height;
+            if (!(excess > slack * (1 + std::fabs(cot)) * (r2 + length2)) || (removed && part.culprit[k] == e))
+                return false;
+            a = part.end;
+        }
+    }
+    work_ += all.size() * (placed_.size() - 1);
+    return true;
 }
 
 /// Brings the minima of side s up to date after the points of edge e, at side `from` of the same facet, have changed.

@@ -110,13 +110,16 @@ public:
     /// Elementary evaluations so far: the measure of work that budgets are stated in.
     [[nodiscard]] std::uint64_t work() const { return work_; }
     void count_work(std::size_t more) const { work_ += more; }
-    /// From now on facets of many triangles count for less than they take.
+    /// From now on facets of many triangles count for less than they take, and no walk through them looks for what a
+    /// side without points sees: it is the corner of the triangle there, up to ties.
     void favour_large_facets() {
         triangle_work_ = 3;
+        trusts_triangles_ = true;
         side_work_ = 0;
     }
 
     static constexpr int base_weight = 10;
+    static constexpr std::uint64_t corner_work = 10;  ///< less than that of the walk that is saved, as it is
 
 private:
     struct State {
@@ -168,12 +171,15 @@ private:
 
     void grow_states();
     void make(std::uint32_t e);
+    [[nodiscard]] double cot_at_corner(std::uint32_t s) const;
     [[nodiscard]] std::uint32_t allocate(std::uint8_t size_class);
     void release(std::uint32_t first, std::uint8_t size_class) { free_[size_class].push_back(first); }
     void save(std::uint32_t e);
     void replace_parts(std::uint32_t e, std::size_t first, std::size_t last, std::span<const double> points);
     void touch_facet(std::uint32_t e, std::uint32_t side, std::span<const double> points, bool removed);
     void touch_side(std::uint32_t e, std::uint32_t from, std::uint32_t s, std::span<const double> points, bool removed);
+    [[nodiscard]] bool lies_flat(const SideLine& line) const;
+    [[nodiscard]] bool stays(std::uint32_t e, std::uint32_t s, bool is_single, bool removed) const;
     [[nodiscard]] Eye eye_at(std::uint32_t s) const;
     [[nodiscard]] Contact nearest(const Eye& eye, double a, double b, double bound) const;
     void scan(const Side& side, std::uint32_t s, std::uint32_t other, double a, double b, Contact& best) const;
@@ -194,6 +200,9 @@ private:
     std::vector<Saved> saved_;
     std::vector<std::uint32_t> touched_weights_;
     std::vector<Part> scratch_;
+    Point2 placed_along_;
+    std::vector<Point2>
+        placed_;  ///< in the plane of the facet that is touched: the ends of the edge, and its new points
     std::size_t points_ = 0;
     std::uint32_t transaction_ = 0;
     bool in_transaction_ = false;
@@ -204,6 +213,7 @@ private:
     mutable std::uint32_t visit_ = 0;
     std::uint64_t triangle_work_ = 5;
     std::uint64_t side_work_ = 2;
+    bool trusts_triangles_ = false;
     mutable std::uint64_t work_ = 0;
 };
 
