@@ -16,6 +16,8 @@ namespace {
 
 /// What parts sheets may make more of them want the same edge.
 constexpr std::size_t most_partings_per_edge = 8;
+/// Edges whose opposite angles a split may change.
+constexpr std::size_t touched_per_split = 8;
 
 class Refinement {
 public:
@@ -41,6 +43,7 @@ public:
     /// would make fans that take a number of flips quadratic in it. Returns what is left to be split afterwards.
     std::vector<HalfedgeId> carry_out(std::span<const SplitPoint> plan) {
         marked_.reserve_splits(plan.size() + plan.size() / 8);
+        suspects_.reserve(touched_per_split * plan.size());
         std::vector<VertexId> made(plan.size());
         std::size_t longest = 0;
         for (std::size_t begin = 0, end = 0; begin < plan.size(); begin = end) {

@@ -17,6 +17,8 @@ constexpr double tie_boundary = 1e-12;
 /// Half of what new points keep.
 constexpr double distance = 1e-10;
 constexpr std::size_t few = 6;
+/// Room for them.
+constexpr std::size_t parts_per_edge = 3;
 
 /// Those of the sorted points p + u d that may see [a,b] under the largest angle: the angle rises to its maximum along
 /// the line and falls behind it.
@@ -103,7 +105,7 @@ void SplitModel::expect(std::size_t edges) {
     layout_.expect(std::min(facets_around * edges, layout_.marked().mesh().face_count()));
     const std::size_t most = layout_.edge_capacity();
     states_.reserve(most);
-    pool_.reserve(pool_.size() + most - layout_.edge_count());
+    pool_.reserve(pool_.size() + parts_per_edge * (most - layout_.edge_count()));
 }
 
 std::size_t SplitModel::part_at(std::uint32_t e, double at) const {
