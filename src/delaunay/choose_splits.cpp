@@ -65,6 +65,7 @@ SplitChooser::SplitChooser(const MarkedMesh& marked, std::span<const EdgeId> bad
       search_(model_, options.seed),
       options_(options) {
     model_.expect(bad.size());
+    if (options.is_greedy) model_.know_bad(bad);
     bad_.reserve(bad.size());
     for (const EdgeId e : bad) {
         bad_.push_back(model_.edge_of(Mesh::halfedge(e)));

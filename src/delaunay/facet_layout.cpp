@@ -95,7 +95,7 @@ std::uint32_t FacetLayout::name_edge(HalfedgeId h) {
     edge_of_halfedge_.insert(name.value(), e);
     Edge edge;
     edge.halfedge = name;
-    edge.is_delaunay = !is_non_delaunay(mesh_, name);
+    edge.is_delaunay = knows_bad_ ? !is_bad_[name.index()] : !is_non_delaunay(mesh_, name);
     edges_.push_back(edge);
     return e;
 }
@@ -112,11 +112,19 @@ void FacetLayout::complete(std::uint32_t edge) {
     if (!mesh_.is_boundary(h)) facet_of(Mesh::face(mesh_.twin(h)));
 }
 
+void FacetLayout::know_bad(std::span<const EdgeId> bad) {
+    is_bad_.assign(mesh_.halfedge_count(), false);
+    for (const EdgeId e : bad) is_bad_[e.index()] = true;
+    knows_bad_ = true;
+}
+
 void FacetLayout::expect(std::size_t facets) {
     facets_.reserve(std::min(facets_.size() + facets, mesh_.face_count()));
     records_.reserve(std::min(records_.size() + 3 * facets, mesh_.halfedge_count()));
     corners_.reserve(std::min(corners_.size() + 3 * facets, mesh_.halfedge_count()));
     edges_.reserve(std::min(edges_.size() + 2 * facets, mesh_.halfedge_count()));
+    facet_of_face_.expect(std::min(facets_.size() + facets, mesh_.face_count()));
+    edge_of_halfedge_.expect(std::min(edges_.size() + 3 * facets / 2, mesh_.halfedge_count()));
 }
 
 std::uint32_t FacetLayout::facet_of(FaceId f) {

@@ -95,6 +95,9 @@ public:
     /// growing step by step costs it twice.
     void expect(std::size_t facets);
 
+    /// All edges that are not Delaunay and not planar, so that no other has to be asked.
+    void know_bad(std::span<const EdgeId> bad);
+
     [[nodiscard]] const MarkedMesh& marked() const { return marked_; }
     [[nodiscard]] std::size_t facet_count() const { return facets_.size(); }
     [[nodiscard]] std::size_t edge_count() const { return edges_.size(); }
@@ -151,6 +154,8 @@ private:
     const Mesh& mesh_;
     double scale_ = 1;
     double second_scale_ = 1;
+    bool knows_bad_ = false;
+    std::vector<bool> is_bad_;  ///< per half-edge that names an edge
     IdMap facet_of_face_;
     IdMap edge_of_halfedge_;
     std::vector<Facet> facets_;

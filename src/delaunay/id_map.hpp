@@ -20,6 +20,11 @@ public:
         rehash(least_slots);
     }
 
+    /// Makes room for so many keys.
+    void expect(std::size_t count) {
+        if (values_.empty() && 2 * count * sizeof(Slot) >= universe_ * sizeof(std::uint32_t)) use_array();
+    }
+
     /// `none` if the key is not there.
     [[nodiscard]] std::uint32_t find(std::uint32_t key) const {
         if (!values_.empty()) return values_[key];
@@ -59,6 +64,10 @@ private:
     void grow() {
         const std::size_t count = 2 * slots_.size();
         if (count * sizeof(Slot) < universe_ * sizeof(std::uint32_t)) return rehash(count);
+        use_array();
+    }
+
+    void use_array() {
         values_.assign(universe_, none);
         for (const Slot& slot : slots_)
             if (slot.key != none) place(slot);

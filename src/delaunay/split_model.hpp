@@ -42,6 +42,7 @@ public:
     /// Makes everything known that a change of this edge's points may touch.
     void prepare(std::uint32_t e);
     [[nodiscard]] bool is_prepared(std::uint32_t e) const { return e < states_.size() && states_[e].prepared; }
+    void know_bad(std::span<const EdgeId> bad) { layout_.know_bad(bad); }
     /// Makes room for preparing so many edges, see FacetLayout::expect.
     void expect(std::size_t edges);
     /// Points may be put on this edge.
