@@ -1,6 +1,7 @@
 #include "delaunay/choose_splits.hpp"
 
 #include "delaunay/block_search.hpp"
+#include "delaunay/close_gaps.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -43,9 +44,11 @@ constexpr std::size_t dear = 2;        ///< where borrowing makes so many times 
 constexpr std::size_t few_edges = 200;
 constexpr std::size_t hard = 2;
 constexpr int most_starts = 2;
-constexpr double start_share = 0.6;  ///< of the work, for each start
-constexpr double long_share = 0.5;   ///< of more work than by default, for a search that goes on
-constexpr int most_useless = 2;      ///< searches in a row
+constexpr double start_share = 0.6;    ///< of the work, for each start
+constexpr double long_share = 0.5;     ///< of more work than by default, for a search that goes on
+constexpr double gap_share = 0.2;      ///< of the same, for what lies above the proved bound
+constexpr std::size_t small_gap = 30;  ///< where that is no more than one point in so many
+constexpr int most_useless = 2;        ///< searches in a row
 /// More for the search where no edge stayed open for long.
 constexpr double spare_share = 0.6;
 /// And for as long as a point that is saved takes less work than this.
@@ -99,6 +102,13 @@ std::vector<PlacedPoint> SplitChooser::place(std::span<const SplitPoint> splits)
 void SplitChooser::set_baseline(std::span<const SplitPoint> splits) {
     baseline_ = place(splits);
     search_.set_other(baseline_);
+}
+
+std::vector<EdgeId> SplitChooser::bad_edges() const {
+    const FacetLayout& layout = model_.layout();
+    std::vector<EdgeId> edges;
+    for (const std::uint32_t e : bad_) edges.push_back(layout.marked().mesh().edge(layout.edge(e).halfedge));
+    return edges;
 }
 
 double SplitChooser::default_work() const {
@@ -227,15 +237,21 @@ void SplitChooser::find_best_places(double full, const Context* context) {
     if (!is_cancelled(context)) search_.improve(static_cast<std::uint64_t>((1 - start_share) * full), context);
 }
 
-/// For those who ask for more effort. Half of the work goes into the same search. Then new ones begin from nothing, and
-/// of each region the better one is kept, as long as that pays; where few edges must be split, luck is all that helps.
+/// For those who ask for more effort. Half of the work goes into the same search, then some into the gap to the proved
+/// bound. Then new ones begin from nothing, and of each region the better one is kept, as long as that pays; where few
+/// edges must be split, luck is all that helps.
 void SplitChooser::go_on(double work, const Context* context) {
     const double end = static_cast<double>(model_.work()) + work;
     const auto left = [&] { return end - static_cast<double>(model_.work()); };
+    const auto improve = [&](double most) {
+        search_.be_patient(patience_of(options_.effort));
+        search_.improve(static_cast<std::uint64_t>(most), context);
+        search_.be_patient(1);
+    };
     if (search_.open().empty() && model_.point_count() == bad_.size()) return;  // no method needs fewer
-    search_.be_patient(patience_of(options_.effort));
-    search_.improve(static_cast<std::uint64_t>(long_share * work), context);
-    search_.be_patient(1);
+    improve(long_share * work);
+    GapCloser gaps(model_, bad_edges(), options_.bound, options_.seed, context);
+    if (close_gaps(gaps, gap_share * work, context)) return;
     const bool is_small = bad_.size() <= few_edges;
     const double once = is_small ? start_share * default_work() : default_work();
     for (int useless = 0; (is_small || useless < most_useless) && left() > 0 && !is_cancelled(context);) {
@@ -244,10 +260,20 @@ void SplitChooser::go_on(double work, const Context* context) {
         put({}, {});
         find_places(std::min(left(), once), context);
         keep_better(best, open);
+        if (model_.point_count() == gaps.bound() && search_.open().empty()) return;
         useless = model_.point_count() < best.size() ? 0 : useless + 1;
     }
-    search_.be_patient(patience_of(options_.effort));
-    if (left() > 0) search_.improve(static_cast<std::uint64_t>(left()), context);
+    if (left() > 0 && close_gaps(gaps, 0.5 * left(), context)) return;
+    if (left() > 0) improve(left());
+}
+
+/// Where they are small. True if none is left.
+bool SplitChooser::close_gaps(GapCloser& gaps, double work, const Context* context) {
+    const auto gap = [&] { return model_.point_count() - gaps.bound(); };
+    if (!search_.open().empty() || is_cancelled(context)) return false;
+    if (model_.point_count() >= small_gap * gap()) gaps.run(static_cast<std::uint64_t>(work), context);
+    proved_bound_ = gaps.bound();
+    return gap() == 0;
 }
 
 /// Replaces all points, and all edges that are known not to be Delaunay.

@@ -2,6 +2,7 @@
 // Where to split which edges so that few points are needed: the search of docs/fewest.md.
 
 #include "delaunay/marked_mesh.hpp"
+#include "delaunay/split_bound.hpp"
 #include "delaunay/split_model.hpp"
 #include "delaunay/split_regions.hpp"
 #include "delaunay/split_search.hpp"
@@ -15,11 +16,14 @@
 
 namespace delmesh {
 
+class GapCloser;
+
 struct SplitSearchOptions {
     int effort = 0;  ///< 0: construction only; each step more doubles the work
     std::uint64_t seed = 1;
     bool quick = false;      ///< where there is a baseline, the construction takes about as long as that
     bool is_greedy = false;  ///< for `construct_quickly` and nothing else
+    SplitBoundOptions bound = {};
 };
 
 /// What a chooser knows, in words of the mesh.
@@ -48,6 +52,8 @@ public:
     [[nodiscard]] std::vector<PlacedPoint> take_baseline();
     /// Some edges may stay as they are, not Delaunay: `leaves_open` where there is a baseline.
     void search(const Context* context);
+    /// What `search` has proved: no method needs fewer points. 0: nothing.
+    [[nodiscard]] std::size_t proved_bound() const { return proved_bound_; }
     [[nodiscard]] bool leaves_open() const { return leaves_open_; }
     /// Takes the baseline in all regions where edges are open, or where it has fewer points.
     void close_by_baseline();
@@ -78,6 +84,8 @@ private:
     void find_best_places(double full, const Context* context);
     void keep_better(const std::vector<PlacedPoint>& other, const std::vector<std::uint32_t>& open);
     void go_on(double work, const Context* context);
+    bool close_gaps(GapCloser& gaps, double work, const Context* context);
+    [[nodiscard]] std::vector<EdgeId> bad_edges() const;
     void close(double full);
     void put(std::span<const PlacedPoint> points, const std::vector<std::uint32_t>& open);
     void spread(double work, bool in_blocks, const Context* context);
@@ -95,6 +103,7 @@ private:
     std::vector<PlacedPoint> baseline_;
     bool is_compared_ = false;  ///< with the baseline, region by region, as the points are now
     bool leaves_open_ = false;
+    std::size_t proved_bound_ = 0;
     int round_ = 0;           ///< of the search in blocks
     double shares_done_ = 0;  ///< of the full work, in these rounds
 };

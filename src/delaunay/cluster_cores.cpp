@@ -15,6 +15,9 @@ constexpr std::size_t most_boxes = 1000;
 constexpr std::size_t most_work = 100'000;
 constexpr std::size_t most_scenes = 20000;
 constexpr double least_width = 1e-7;
+/// The same, where there is a gap.
+constexpr std::size_t most_gap_boxes = 100'000;
+constexpr std::size_t most_gap_work = 4'000'000;
 
 [[nodiscard]] bool contains(const std::vector<std::uint32_t>& ids, std::uint32_t id) {
     return std::find(ids.begin(), ids.end(), id) != ids.end();
@@ -29,10 +32,21 @@ ClusterCores::ClusterCores(BoundView& view, const CorePacking& packing, const st
     for (std::uint32_t i = 0; i < needs_.size(); ++i) need_of_.insert(needs_[i].edge, i);
     packing.for_each_core([&](std::uint32_t split, const std::vector<std::uint32_t>& blockers) {
         const auto id = static_cast<std::uint32_t>(cores_.size());
-        cores_.push_back({{split}, 1});
-        core_of_.insert(split, id);
-        for (const std::uint32_t e : blockers) core_of_.insert(e, id);
+        cores_.emplace_back().split = {split};
+        join(split, id);
+        for (const std::uint32_t e : blockers) join(e, id);
     });
+}
+
+void ClusterCores::join(std::uint32_t edge, std::uint32_t core) {
+    core_of_.insert(edge, core);
+    cores_[core].edges.push_back(edge);
+}
+
+std::uint32_t ClusterCores::owner(std::uint32_t edge) const {
+    std::uint32_t core = core_of_.find(edge);
+    while (core != none && cores_[core].into != none) core = cores_[core].into;
+    return core;
 }
 
 const EdgeScene& ClusterCores::scene(std::uint32_t edge) {
@@ -103,8 +117,8 @@ std::vector<std::uint32_t> ClusterCores::candidates_around(std::uint32_t core) {
         work_ += scene(e).size();
         for (const std::uint32_t other : scene(e).neighbours()) {
             consider(other);
-            const std::uint32_t owner = core_of_.find(other);
-            if (is_open_[other] || (owner != none && owner != core)) continue;
+            const std::uint32_t of = core_of_.find(other);
+            if (is_open_[other] || (of != none && of != core)) continue;
             work_ += scene(other).size();
             for (const std::uint32_t beyond : scene(other).neighbours()) consider(beyond);
         }
@@ -140,7 +154,8 @@ bool ClusterCores::grow_cluster(std::size_t size) {
 /// Tries to show that one point on each edge of `split`, and `more` points wherever they are, do not do; makes a core
 /// of that.
 bool ClusterCores::prove(const std::vector<std::uint32_t>& split, std::uint32_t core, std::size_t more) {
-    core_ = core;
+    own_.clear();
+    if (core != none) own_.push_back(core);
     points_ = split;
     in_proof_ = split;
     if (!refute_all(more)) return false;
@@ -151,7 +166,7 @@ bool ClusterCores::prove(const std::vector<std::uint32_t>& split, std::uint32_t 
     cores_[core].split = split;
     cores_[core].gain = more + 1;
     for (const std::uint32_t e : in_proof_)
-        if (core_of_.find(e) == none) core_of_.insert(e, core);
+        if (core_of_.find(e) == none) join(e, core);
     return true;
 }
 
@@ -183,15 +198,19 @@ ClusterCores::Box ClusterCores::all_places() const {
         const std::size_t first = box.size();
         box.resize(first + count, {e, {0, 1}});
         if (!is_open_[e]) continue;
-        const Stretch alone = needs_[need_of_.find(e)].stretches.front();
-        box[first].at.to = alone.to;
-        box.back().at.from = alone.from;
+        const std::vector<Stretch>& alone = needs_[need_of_.find(e)].stretches;
+        for (std::size_t i = 0; i < std::min(alone.size(), count); ++i) {
+            Stretch& from_start = box[first + i].at;
+            from_start.to = std::min(from_start.to, alone[i].to);
+            Stretch& from_end = box[box.size() - 1 - i].at;
+            from_end.from = std::max(from_end.from, alone[alone.size() - 1 - i].from);
+        }
     }
     return box;
 }
 
 bool ClusterCores::is_in_proof(std::uint32_t edge) const {
-    return contains(in_proof_, edge) || (core_ != none && core_of_.find(edge) == core_);
+    return contains(in_proof_, edge) || contains(own_, owner(edge));
 }
 
 /// Edges with points, and others nearby that may be spoilt by them.
@@ -219,17 +238,25 @@ void ClusterCores::gather_watchers() {
 bool ClusterCores::refute() {
     gather_watchers();
     std::vector<Box> boxes{all_places()};
+    const std::size_t most = gap_ == nullptr ? most_boxes : most_gap_boxes;
     for (std::size_t count = 0; !boxes.empty(); ++count) {
-        if (count == most_boxes || work_ > most_work) return false;
+        if (count == most || work_ > (gap_ == nullptr ? most_work : most_gap_work)) return false;
         Box box = std::move(boxes.back());
         boxes.pop_back();
         if (is_refuted(box)) continue;
-        if (std::all_of(watchers_.begin(), watchers_.end(), [&](std::uint32_t e) { return scene(e).looks_good(box); }))
-            return false;
+        if (gap_ != nullptr && halve(box)) {
+            boxes.push_back(std::move(box));
+            continue;
+        }
         const auto widest = std::max_element(box.begin(), box.end(), [](const VaguePoint& a, const VaguePoint& b) {
             return a.at.to - a.at.from < b.at.to - b.at.from;
         });
-        if (widest->at.to - widest->at.from < least_width) return false;
+        if (widest->at.to - widest->at.from < least_width ||
+            std::all_of(watchers_.begin(), watchers_.end(),
+                        [&](std::uint32_t e) { return scene(e).looks_good(box); })) {
+            if (gap_ != nullptr) try_places(box);
+            return false;
+        }
         const double middle = 0.5 * (widest->at.from + widest->at.to);
         boxes.push_back(box);
         boxes.back()[static_cast<std::size_t>(widest - box.begin())].at.to = middle;
@@ -237,6 +264,25 @@ bool ClusterCores::refute() {
         boxes.push_back(std::move(box));
     }
     return true;
+}
+
+/// Where one half of the box is refuted at once, leaves the other one.
+bool ClusterCores::halve(Box& box) {
+    for (VaguePoint& point : box) {
+        const Stretch whole = point.at;
+        if (whole.to - whole.from < least_width) continue;
+        const double middle = 0.5 * (whole.from + whole.to);
+        point.at.to = middle;
+        const bool low = is_refuted(box);
+        point.at = {middle, whole.to};
+        if (low) return true;
+        if (is_refuted(box)) {
+            point.at = {whole.from, middle};
+            return true;
+        }
+        point.at = whole;
+    }
+    return false;
 }
 
 /// Edges that the proof is about anyway are tried first.

@@ -112,6 +112,22 @@ bool EdgeScene::looks_good(std::span<const VaguePoint> points) const {
     });
 }
 
+double EdgeScene::margin(std::span<const VaguePoint> points) const {
+    double least = 1;
+    (void)all_parts(points, [&](const Part& part) {
+        double sum = 0;
+        double size = 0;
+        for (int k = 0; k < sides_; ++k) {
+            const double cot = look_from(scenes_[k], part, points).cot;
+            sum += cot;
+            size += std::fabs(cot);
+        }
+        least = part.from < part.to ? std::min(least, sum / size) : -1;
+        return part.from < part.to;
+    });
+    return least;
+}
+
 bool EdgeScene::is_bad(std::span<const VaguePoint> points) const {
     return !all_parts(points, [&](const Part& part) { return !is_bad(part, points); });
 }

@@ -32,6 +32,9 @@ public:
     [[nodiscard]] const std::vector<std::uint32_t>& neighbours() const { return neighbours_; }
     /// True if no part of the edge is bad, in doubles, with each point in the middle of its stretch.
     [[nodiscard]] bool looks_good(std::span<const VaguePoint> points) const;
+    /// How far its parts are from bad, in doubles: the least sum of cotangents by their size. Points are at one place
+    /// each.
+    [[nodiscard]] double margin(std::span<const VaguePoint> points) const;
     /// True if a part of the edge is bad wherever the points lie in their stretches; proved.
     [[nodiscard]] bool is_bad(std::span<const VaguePoint> points) const;
 

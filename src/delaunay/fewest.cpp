@@ -5,6 +5,7 @@
 #include "delaunay/quick_contest.hpp"
 #include "delaunay/sheets.hpp"
 #include "delaunay/slice_trials.hpp"
+#include "delaunay/split_bound.hpp"
 #include "delaunay/split_planner.hpp"
 #include "delaunay/split_trial.hpp"
 
@@ -60,6 +61,9 @@ public:
         return best;
     }
 
+    /// What the search has proved that any method needs; 0: nothing.
+    [[nodiscard]] std::size_t proved_bound() const { return proved_bound_; }
+
 private:
     /// The mesh of the shells is not kept meanwhile: to make it again takes less than its memory is worth.
     TrialPointer better_of(TrialPointer by_shells, std::size_t most_splits) {
@@ -89,7 +93,9 @@ private:
     }
 
     [[nodiscard]] SplitSearchOptions search_options() const {
-        return {static_cast<int>(from_.options.effort), from_.options.seed};
+        SplitSearchOptions options{static_cast<int>(from_.options.effort), from_.options.seed};
+        options.bound = bound_options(from_.options);
+        return options;
     }
 
     /// A handful of points that only exact arithmetic finds.
@@ -106,6 +112,7 @@ private:
     /// region. Where they do not end, the region is taken from the baseline.
     TrialPointer by_search(SplitPlanner& planner) {
         TrialPointer trial = by_plan(planner, planner.search(from_.context));
+        proved_bound_ = std::max(proved_bound_, planner.proved_bound());
         const bool explodes = most_by_plan_ == unlimited_splits && !trial->done() && !trial->cancelled();
         if (explodes && may_part_ && !has_sliced_ && !has_other_way_) {
             has_sliced_ = true;
@@ -254,6 +261,7 @@ private:
     std::size_t most_splits_ = unlimited_splits;   ///< of a plan that is carried out
     std::size_t most_by_plan_ = unlimited_splits;  ///< the same, where the shells end
     bool has_sliced_ = false;
+    std::size_t proved_bound_ = 0;
     std::vector<OpenPlan> failed_;
     OpenPlan blocked_{unlimited_splits,
                       {}};  ///< of the plans with sheets in the way of flips the one that leaves least
@@ -264,8 +272,11 @@ private:
 void preserve_with_fewest(MarkedMesh& marked, const RemeshOptions& options, const Context* context,
                           RemeshReport& report, const RefineStart& start, bool has_other_way, Mesh* spare) {
     if (options.effort == 0) return preserve_quickly(marked, options, context, report, start);
-    const TrialPointer best = Contest({marked, options, context, start, report}, has_other_way, spare).run();
+    Contest contest({marked, options, context, start, report}, has_other_way, spare);
+    const TrialPointer best = contest.run();
     report = std::move(best->report);
+    if (report.lower_bound_strong)
+        report.lower_bound_strong = std::max(*report.lower_bound_strong, contest.proved_bound());
     marked.take(std::move(best->marked));
 }
 

@@ -73,10 +73,7 @@ void preserve_surface(Mesh& mesh, const RemeshOptions& options, const Context* c
     RefineStart start = flip_planar_edges(marked, options, context, report);
     if (options.on_growth) options.on_growth(estimate_growth(mesh, start.bad, options));
     if (options.bound) {
-        SplitBoundOptions bound;
-        bound.exact_facets = tolerance == 0;
-        if (options.precision == Precision::float32) bound.rounding = 0x1p-21;
-        report.lower_bound_strong = strong_lower_bound(marked, start.bad, bound, context);
+        report.lower_bound_strong = strong_lower_bound(marked, start.bad, bound_options(options), context);
     }
     if (options.placement == SplitPlacement::fewest && !start.bad.empty()) {
         preserve_with_fewest(marked, options, context, report, start, has_other_way);

@@ -34,6 +34,7 @@ void SplitPlanner::rest() {
 
 std::vector<SplitPoint> SplitPlanner::search(const Context* context) {
     chooser().search(context);
+    proved_bound_ = chooser_->proved_bound();
     return hand_over();
 }
 

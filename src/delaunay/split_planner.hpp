@@ -23,6 +23,8 @@ public:
 
     /// `SplitChooser::search`; hands over the plan.
     [[nodiscard]] std::vector<SplitPoint> search(const Context* context);
+    /// `SplitChooser::proved_bound`.
+    [[nodiscard]] std::size_t proved_bound() const { return proved_bound_; }
     /// `SplitChooser::leaves_open`.
     [[nodiscard]] bool leaves_open() const { return chooser_ ? chooser_->leaves_open() : plan_.leaves_open; }
     /// `SplitChooser::close_by_baseline`; hands over the changed plan.
@@ -51,6 +53,7 @@ private:
     std::vector<SplitPoint>& baseline_;
     const bool is_large_;
     std::optional<SplitChooser> chooser_;
+    std::size_t proved_bound_ = 0;
     SplitPlan plan_;  ///< what the chooser knew when it was let go
 };
 

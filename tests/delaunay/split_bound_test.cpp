@@ -4,8 +4,11 @@
 
 #include "base/random.hpp"
 #include "delaunay/classify.hpp"
+#include "delaunay/close_gaps.hpp"
 #include "delaunay/refine.hpp"
 #include "delaunay/split_model.hpp"
+#include "delaunay/split_search.hpp"
+#include "delaunay/split_trial.hpp"
 #include "delmesh/delaunay/remesh.hpp"
 #include "delmesh/mesh/shapes.hpp"
 #include "support/families.hpp"
@@ -188,6 +191,68 @@ TEST(SplitBoundOfNeedles, AFanNeedsOnePoint) {
     add_face(halves, {42, 40, 41});
     Mesh mesh(std::move(halves));
     EXPECT_EQ(make_delaunay(mesh).splits, 0U);
+}
+
+/// What lies above the bound is looked at again, several cores together.
+TEST(SplitGaps, WhatIsProvedThenIsMoreAndNoRunBeatsIt) {
+    const Mesh before(make_sample("noisy-sphere", 600));
+    RemeshOptions options;
+    options.bound = true;
+    std::array<std::size_t, 2> proved{};
+    std::size_t fewest = unlimited_splits;
+    for (const std::size_t more : {0, 1}) {
+        options.effort = more == 0 ? 3 : 4;
+        for (const std::size_t seed : {1, 2}) {
+            options.seed = seed;
+            Mesh mesh = before;
+            const RemeshReport report = make_delaunay(mesh, options);
+            ASSERT_EQ(report.stop, StopReason::done);
+            proved[more] = std::max(proved[more], *report.lower_bound_strong);
+            fewest = std::min(fewest, report.splits);
+        }
+    }
+    EXPECT_GT(proved[1], proved[0]);
+    EXPECT_LE(proved[1], fewest);
+}
+
+/// Points that a quick construction has too many.
+TEST(SplitGaps, PlacesForFewerPointsAreFound) {
+    Random random(7);
+    std::size_t before = 0;
+    std::size_t after = 0;
+    int met = 0;
+    int count = 0;
+    for (int round = 0; round < 100; ++round) {
+        Small small(wheel(random, 4 + round % 5));
+        if (small.bad.empty()) continue;
+        SplitModel model(small.marked);
+        SplitSearch search(model, 1);
+        std::vector<std::uint32_t> edges;
+        for (const EdgeId e : small.bad) edges.push_back(model.edge_of(Mesh::halfedge(e)));
+        for (const std::uint32_t e : edges) model.prepare(e);
+        search.construct(edges, 1'000'000);
+        if (!search.open().empty()) continue;
+        ++count;
+        const std::size_t points = model.point_count();
+        GapCloser gaps(model, small.bad, {}, 1, nullptr);
+        gaps.run(10'000'000, nullptr);
+        before += points;
+        after += model.point_count();
+        EXPECT_LE(model.point_count(), points);
+        EXPECT_LE(gaps.bound(), model.point_count());
+        EXPECT_GE(gaps.bound(), small.bound);
+        for (std::uint32_t e = 0; e < model.edge_count(); ++e) EXPECT_LT(model.first_bad(e), 0);
+        if (gaps.bound() == model.point_count()) ++met;
+        RemeshOptions options;
+        options.effort = 0;
+        for (options.seed = 1; options.seed <= 3; ++options.seed) {
+            Mesh copy = small.mesh;
+            EXPECT_GE(make_delaunay(copy, options).splits, gaps.bound()) << "round " << round;
+        }
+    }
+    EXPECT_GT(count, 40);
+    EXPECT_LT(after, before - before / 20);
+    EXPECT_GT(met, 3 * count / 4);
 }
 
 TEST(SplitBoundOfSamples, IsFarAboveTheNumberOfEdges) {
