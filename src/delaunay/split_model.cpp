@@ -242,14 +242,14 @@ void SplitModel::touch_facet(std::uint32_t e, std::uint32_t side, std::span<cons
     const Facet& facet = layout_.facet(layout_.facet_at(side));
     if (!facet.single) work_ += side_work_ * facet.side_count;  // beside its parts
     placed_.clear();
-    if (!points.empty() && points.size() <= few) {
+    if (!facet.single && !points.empty() && points.size() <= few) {
         const SideLine line = layout_.line(side);
         placed_ = {line.start, line.start + line.along};
         placed_along_ = line.along;
         for (const double u : points) placed_.push_back(line.start + u * line.along);
     }
     for (std::uint32_t s = facet.first_side; s < facet.first_side + facet.side_count; ++s)
-        if (layout_.edge_at(s) != e && !stays(e, s, facet.single, removed)) touch_side(e, side, s, points, removed);
+        if (layout_.edge_at(s) != e && !stays(e, s, removed)) touch_side(e, side, s, points, removed);
 }
 
 /// What `touch_side` finds at first, to the last bit.
@@ -263,7 +263,7 @@ bool SplitModel::lies_flat(const SideLine& line) const {
 
 /// True if it is clear, by more than rounding can change, that `touch_side` would find nothing: it is asked for each
 /// side of a facet, and few of them see the new points under the largest angle.
-bool SplitModel::stays(std::uint32_t e, std::uint32_t s, bool is_single, bool removed) const {
+bool SplitModel::stays(std::uint32_t e, std::uint32_t s, bool removed) const {
     constexpr double slack = 1e-12;
     if (placed_.empty()) return false;
     const SideLine line = layout_.line(s);
@@ -278,7 +278,7 @@ bool SplitModel::stays(std::uint32_t e, std::uint32_t s, bool is_single, bool re
         is_seen = is_seen || height > 100 * slack * (length2 + r2);
         is_flat = is_flat && (height <= 0.5 * flat * length2 && r2 <= 100 * length2);
     }
-    if (!is_seen) return is_flat || (!is_single && lies_flat(line));
+    if (!is_seen) return is_flat || lies_flat(line);
     const std::uint32_t other = layout_.edge_at(s);
     const std::size_t k = layout_.edge(other).side[0] == s ? 0 : 1;
     const auto all = parts(other);

@@ -180,7 +180,7 @@ private:
     void touch_facet(std::uint32_t e, std::uint32_t side, std::span<const double> points, bool removed);
     void touch_side(std::uint32_t e, std::uint32_t from, std::uint32_t s, std::span<const double> points, bool removed);
     [[nodiscard]] bool lies_flat(const SideLine& line) const;
-    [[nodiscard]] bool stays(std::uint32_t e, std::uint32_t s, bool is_single, bool removed) const;
+    [[nodiscard]] bool stays(std::uint32_t e, std::uint32_t s, bool removed) const;
     [[nodiscard]] Eye eye_at(std::uint32_t s) const;
     [[nodiscard]] Contact nearest(const Eye& eye, double a, double b, double bound) const;
     void scan(const Side& side, std::uint32_t s, std::uint32_t other, double a, double b, Contact& best) const;
@@ -203,7 +203,7 @@ private:
     std::vector<Part> scratch_;
     Point2 placed_along_;
     std::vector<Point2>
-        placed_;  ///< in the plane of the facet that is touched: the ends of the edge, and its new points
+        placed_;  ///< in the plane of the large facet that is touched: the ends of the edge, and its new points
     std::size_t points_ = 0;
     std::uint32_t transaction_ = 0;
     bool in_transaction_ = false;
