@@ -54,7 +54,7 @@ constexpr double spare_share = 0.6;
 /// And for as long as a point that is saved takes less work than this.
 constexpr double cheap_point = 250e3;
 constexpr double extra_share = 0.1;
-constexpr int most_extra = 4;
+constexpr int most_extra = 3;
 
 /// By default the search ends where little comes of it. Whoever asks for more effort wants that little.
 std::uint64_t patience_of(int effort) {

@@ -10,6 +10,8 @@
 namespace delmesh {
 namespace {
 
+constexpr std::uint32_t many_sides = 16;
+
 /// An orthonormal frame of the plane of a triangle, with its longest side along x.
 struct Plane {
     Vec3 origin;
@@ -151,6 +153,10 @@ std::uint32_t FacetLayout::facet_of(FaceId f) {
         for (const FaceId g : faces_) add_triangle(g, id, first_triangle);
     }
     facet.side_count = static_cast<std::uint32_t>(records_.size()) - facet.first_side;
+    if (!facet.single && facet.side_count >= many_sides) {
+        facet.kept = static_cast<std::uint32_t>(sides_.size());
+        for (std::uint32_t s = facet.first_side; s < records_.size(); ++s) sides_.push_back(make_side(records_[s]));
+    }
     facets_.push_back(facet);
     return id;
 }
@@ -228,7 +234,7 @@ void FacetLayout::add_side(HalfedgeId h, SideRecord record) {
     record.edge = name_edge(h) & mask;
     const auto s = static_cast<std::uint32_t>(records_.size());
     records_.push_back(record);
-    const Side made = side(s);
+    const Side made = make_side(record);
     const bool usable = std::isfinite(1 / dot(made.along, made.along)) && std::isfinite(made.apex.x) && made.apex.y > 0;
     Edge& edge = edges_[record.edge];
     edge.side[forward ? 0 : 1] = s;

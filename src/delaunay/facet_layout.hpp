@@ -65,7 +65,8 @@ struct FacetTriangle {
 struct Facet {
     std::uint32_t first_side = 0;
     std::uint32_t side_count = 0;
-    bool single = true;  ///< one triangle: `side_count` is 3, in the order of its half-edges
+    std::uint32_t kept = IdMap::none;  ///< where its sides are kept, see FacetLayout
+    bool single = true;                ///< one triangle: `side_count` is 3, in the order of its half-edges
 };
 
 /// Lays out facets of a mesh whose planar edges are Delaunay within their facets. Facets, sides and edges are numbered
@@ -141,6 +142,11 @@ private:
     static_assert(sizeof(SideRecord) == 12);
     static constexpr std::uint32_t mask = (1u << 30) - 1;
 
+    [[nodiscard]] Side make_side(const SideRecord& record) const;
+    [[nodiscard]] const Side* kept_side(std::uint32_t s) const {
+        const Facet& facet = facets_[records_[s].facet];
+        return facet.kept == none ? nullptr : &sides_[facet.kept + (s - facet.first_side)];
+    }
     static void check_size(std::size_t count);
     std::uint32_t name_edge(HalfedgeId h);
     void gather(FaceId f, std::uint32_t facet);
@@ -160,6 +166,7 @@ private:
     IdMap edge_of_halfedge_;
     std::vector<Facet> facets_;
     std::vector<SideRecord> records_;
+    std::vector<Side> sides_;  ///< of facets with many sides, as each of these is looked at very often
     std::vector<Edge> edges_;
     std::vector<FacetTriangle> triangles_;
     std::vector<Point2> corners_;
@@ -178,6 +185,12 @@ inline SideLine FacetLayout::line(std::uint32_t s) const {
 
 inline Side FacetLayout::side(std::uint32_t s) const {
     const SideRecord& record = records_[s];
+    if (!record.single)
+        if (const Side* kept = kept_side(s)) return *kept;
+    return make_side(record);
+}
+
+inline Side FacetLayout::make_side(const SideRecord& record) const {
     Side side;
     side.edge = record.edge;
     side.facet = record.facet;
@@ -197,6 +210,7 @@ inline Side FacetLayout::side(std::uint32_t s) const {
 inline std::pair<Point2, Point2> FacetLayout::seen_from(const Side& side, std::uint32_t s, std::uint32_t other) const {
     const SideRecord& there = records_[other];
     if (!there.single) {
+        if (const Side* kept = kept_side(other)) return {side.to_frame(kept->start), side.turn(kept->along)};
         const Point2 start = corners_[triangles_[there.place].corner[there.start()]];
         const Point2 end = corners_[triangles_[there.place].corner[there.end()]];
         return {side.to_frame(start), side.turn(end - start)};
