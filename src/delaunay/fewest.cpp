@@ -43,7 +43,7 @@ public:
 
     TrialPointer run() {
         // Needles make shells explode; then what is found without them is all that is needed.
-        const std::size_t few = 100'000 + (has_other_way_ ? 10 : 20) * from_.start.bad.size();
+        const std::size_t few = few_splits(from_.start.bad.size(), has_other_way_);
         TrialPointer best = try_shells(from_, few);
         if (best->report.stop == StopReason::max_vertices && best->report.splits >= few) {
             most_splits_ = few;

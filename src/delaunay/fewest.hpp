@@ -3,6 +3,8 @@
 
 #include "delaunay/refine.hpp"
 
+#include <cstddef>
+
 namespace delmesh {
 
 /// As `refine_and_clean` after `start`, but never with more splits. Fills the same of the report, and
@@ -12,5 +14,10 @@ namespace delmesh {
 void preserve_with_fewest(MarkedMesh& marked, const RemeshOptions& options, const Context* context,
                           RemeshReport& report, const RefineStart& start, bool has_other_way = false,
                           Mesh* spare = nullptr);
+
+/// Explosions stop here first, with so many edges that must be split.
+[[nodiscard]] constexpr std::size_t few_splits(std::size_t bad, bool has_other_way) {
+    return 100'000 + (has_other_way ? 10 : 20) * bad;
+}
 
 }  // namespace delmesh

@@ -100,6 +100,10 @@ std::size_t bound_within(Mesh mesh, const UnitFrame& frame, double tolerance, co
     return flip_planar_edges(classified.marked, {}, context, report).bad.size();
 }
 
+/// With so many edges to be split, what explodes and has had a third of what it may take is not followed to its end.
+constexpr std::size_t many_edges = 10'000;
+constexpr std::size_t thirds = 3;
+
 /// FlatRule::automatic: the surface is kept exactly, unless that fails where rounding is what stands in the way.
 void preserve_automatically(Mesh& mesh, const RemeshOptions& options, const Context* context, RemeshReport& report) {
     RemeshOptions exact = within(options, 0);
@@ -124,9 +128,12 @@ void preserve_automatically(Mesh& mesh, const RemeshOptions& options, const Cont
     };
     preserve_surface(mesh, exact, context, report, true);
     if (is_over()) return;
+    const std::size_t bad = report.lower_bound;
+    const std::size_t enough = original.vertex_count() + thirds * few_splits(bad, true);
     start_again();
     preserve_surface(mesh, within(options, stored / frame.diagonal), context, report);
     if (is_over()) return;
+    if (bad >= many_edges && options.max_vertices != 0 && options.max_vertices < enough) return;
     start_again();
     preserve_surface(mesh, exact, context, report);
 }
