@@ -152,7 +152,7 @@ std::uint32_t FacetLayout::facet_of(FaceId f) {
         lay_corners();
         for (const FaceId g : faces_) add_triangle(g, id, first_triangle);
     }
-    facet.side_count = static_cast<std::uint32_t>(records_.size()) - facet.first_side;
+    facet.side_count = (static_cast<std::uint32_t>(records_.size()) - facet.first_side) & mask;
     if (!facet.single && facet.side_count >= many_sides) {
         facet.kept = static_cast<std::uint32_t>(sides_.size());
         for (std::uint32_t s = facet.first_side; s < records_.size(); ++s) sides_.push_back(make_side(records_[s]));

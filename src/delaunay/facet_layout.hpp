@@ -64,10 +64,11 @@ struct FacetTriangle {
 
 struct Facet {
     std::uint32_t first_side = 0;
-    std::uint32_t side_count = 0;
+    std::uint32_t side_count : 31 = 0;
+    bool single : 1 = true;            ///< one triangle: `side_count` is 3, in the order of its half-edges
     std::uint32_t kept = IdMap::none;  ///< where its sides are kept, see FacetLayout
-    bool single = true;                ///< one triangle: `side_count` is 3, in the order of its half-edges
 };
+static_assert(sizeof(Facet) == 12);  // there are as many as faces
 
 /// Lays out facets of a mesh whose planar edges are Delaunay within their facets. Facets, sides and edges are numbered
 /// in the order in which they are asked for. The mesh must not change. Memory: what was asked for, no more.
