@@ -43,8 +43,15 @@ constexpr std::size_t dear = 2;        ///< where borrowing makes so many times 
 /// With no more edges than these, and at least this many times as many points, the search starts more than once.
 constexpr std::size_t few_edges = 200;
 constexpr std::size_t hard = 2;
-constexpr int most_starts = 2;
-constexpr double start_share = 0.6;    ///< of the work, for each start
+struct Starts {
+    int most;
+    double first, others;  ///< of the work, for each
+};
+constexpr Starts long_starts{2, 0.6, 0.6};
+/// For needles: where shells need so many points for each edge, luck helps more than patience.
+constexpr Starts short_starts{6, 0.45, 0.15};
+constexpr std::size_t wild = 30;
+constexpr double start_rest = 0.4;     ///< for what the starts have found together
 constexpr double long_share = 0.5;     ///< of more work than by default, for a search that goes on
 constexpr double gap_share = 0.2;      ///< of the same, for what lies above the proved bound
 constexpr std::size_t small_gap = 30;  ///< where that is no more than one point in so many
@@ -223,18 +230,24 @@ void SplitChooser::keep_better(const std::vector<PlacedPoint>& other, const std:
     if (worth(open.size(), other.size()) < worth(search_.open().size(), model_.point_count())) put(other, open);
 }
 
+bool SplitChooser::is_wild() const {
+    // Less work is too little for short starts.
+    return options_.effort >= default_effort && baseline_.size() >= wild * bad_.size();
+}
+
 /// Where few edges need many points, much depends on luck: it is tried more than once.
 void SplitChooser::find_best_places(double full, const Context* context) {
-    find_places(start_share * full, context);
-    for (int i = 1; i < most_starts && !is_cancelled(context); ++i) {
+    const Starts starts = is_wild() ? short_starts : long_starts;
+    find_places(starts.first * full, context);
+    for (int i = 1; i < starts.most && !is_cancelled(context); ++i) {
         if (model_.point_count() < hard * bad_.size()) break;
         const std::vector<PlacedPoint> points = placed_points(model_);
         const std::vector<std::uint32_t> open = search_.open();
         put({}, {});
-        find_places(start_share * full, context);
+        find_places(starts.others * full, context);
         keep_better(points, open);
     }
-    if (!is_cancelled(context)) search_.improve(static_cast<std::uint64_t>((1 - start_share) * full), context);
+    if (!is_cancelled(context)) search_.improve(static_cast<std::uint64_t>(start_rest * full), context);
 }
 
 /// For those who ask for more effort. Half of the work goes into the same search, then some into the gap to the proved
@@ -253,7 +266,8 @@ void SplitChooser::go_on(double work, const Context* context) {
     GapCloser gaps(model_, bad_edges(), options_.bound, options_.seed, context);
     if (close_gaps(gaps, gap_share * work, context)) return;
     const bool is_small = bad_.size() <= few_edges;
-    const double once = is_small ? start_share * default_work() : default_work();
+    const double share = !is_small ? 1 : is_wild() ? short_starts.others : long_starts.others;
+    const double once = share * default_work();
     for (int useless = 0; (is_small || useless < most_useless) && left() > 0 && !is_cancelled(context);) {
         const std::vector<PlacedPoint> best = placed_points(model_);
         const std::vector<std::uint32_t> open = search_.open();

@@ -81,6 +81,7 @@ private:
     [[nodiscard]] double full_work() const;
     [[nodiscard]] bool is_hopeless() const;
     void find_places(double full, const Context* context);
+    [[nodiscard]] bool is_wild() const;
     void find_best_places(double full, const Context* context);
     void keep_better(const std::vector<PlacedPoint>& other, const std::vector<std::uint32_t>& open);
     void go_on(double work, const Context* context);
