@@ -35,7 +35,7 @@ public:
     /// first; then cores are shown to need more, alone or together with another edge.
     [[nodiscard]] std::size_t run(const Context* context);
 
-    /// Once that has been run: where a solution has more points than are known to be needed, takes up to three cores
+    /// Once that has been run: where a solution has more points than are known to be needed, takes up to five cores
     /// and edges together, and more care. Either they are shown to need more, or places for fewer points turn up.
     /// Returns by how much more the bound is then.
     std::size_t close_gaps(GapTask& task, const Context* context);

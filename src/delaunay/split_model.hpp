@@ -201,9 +201,9 @@ private:
     std::vector<Saved> saved_;
     std::vector<std::uint32_t> touched_weights_;
     std::vector<Part> scratch_;
+    /// In the plane of the large facet that is touched: the ends of the edge, and its new points.
+    std::vector<Point2> placed_;
     Point2 placed_along_;
-    std::vector<Point2>
-        placed_;  ///< in the plane of the large facet that is touched: the ends of the edge, and its new points
     std::size_t points_ = 0;
     std::uint32_t transaction_ = 0;
     bool in_transaction_ = false;
