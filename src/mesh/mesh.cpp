@@ -1,6 +1,7 @@
 #include "delmesh/mesh/mesh.hpp"
 
 #include "delmesh/base/error.hpp"
+#include "mesh/edge_groups.hpp"
 #include "mesh/fan_search.hpp"
 
 #include <fmt/format.h>
@@ -65,73 +66,38 @@ void check_faces(const std::vector<std::uint32_t>& corners, std::size_t vertex_c
                               repeats.others()));
 }
 
-/// Pairs half-edges by putting each into the bucket of its smaller vertex and sorting the buckets by the larger one.
-class Twins {
-public:
-    Twins(std::span<const VertexId> origin, std::size_t vertex_count) : origin_(origin), begin_(vertex_count + 1, 0) {
-        fill_buckets();
-    }
-
-    void pair_up(std::vector<HalfedgeId>& twin) {
-        for (std::size_t v = 0; v + 1 < begin_.size(); ++v) pair_bucket(v, twin);
-        crowded_.raise(ErrorCode::non_manifold_edge,
-                       fmt::format("the edge between vertices {} and {} has more than two faces{}; `delmesh repair` "
-                                   "cuts the mesh open there",
-                                   crowded_.at(0), crowded_.at(1), crowded_.others()));
-        inconsistent_.raise(ErrorCode::inconsistent_edge,
-                            fmt::format("the two faces at the edge between vertices {} and {} are oriented "
-                                        "differently{}; `delmesh repair` turns faces round",
-                                        inconsistent_.at(0), inconsistent_.at(1), inconsistent_.others()));
-    }
-
-private:
-    struct Item {
-        VertexId high;
-        HalfedgeId h;
-        friend auto operator<=>(const Item&, const Item&) = default;
+std::vector<HalfedgeId> pair_halfedges(std::span<const VertexId> origin, std::size_t vertex_count) {
+    Offenders crowded;
+    Offenders inconsistent;
+    const auto from = [&](HalfedgeId h) { return origin[h.index()].value(); };
+    const auto to = [&](HalfedgeId h) { return origin[Mesh::next(h).index()].value(); };
+    const auto low = [&](HalfedgeId h) { return std::min(from(h), to(h)); };
+    const auto high = [&](HalfedgeId h) { return std::max(from(h), to(h)); };
+    const auto pair_up = [&](std::span<const HalfedgeId> halfedges, std::vector<HalfedgeId>& twin) {
+        for (const HalfedgeId h : halfedges) twin[h.index()] = HalfedgeId();
+        const HalfedgeId h = halfedges.front();
+        const HalfedgeId g = halfedges.back();
+        if (halfedges.size() > 2) {
+            crowded.add(low(h), high(h));
+        } else if (halfedges.size() == 2) {
+            if (from(h) == from(g)) inconsistent.add(low(h), high(h));
+            twin[h.index()] = g;
+            twin[g.index()] = h;
+        }
     };
-
-    [[nodiscard]] VertexId origin(HalfedgeId h) const { return origin_[h.index()]; }
-    [[nodiscard]] VertexId target(HalfedgeId h) const { return origin_[Mesh::next(h).index()]; }
-    [[nodiscard]] VertexId low(HalfedgeId h) const { return std::min(origin(h), target(h)); }
-    [[nodiscard]] VertexId high(HalfedgeId h) const { return std::max(origin(h), target(h)); }
-
-    void fill_buckets() {
-        const std::size_t count = origin_.size();
-        for (std::size_t h = 0; h < count; ++h) ++begin_[low(HalfedgeId(h)).index()];
-        std::uint32_t sum = 0;
-        for (std::uint32_t& b : begin_) sum = b += sum;
-        items_.resize(count);
-        for (std::size_t h = count; h-- > 0;) {
-            const HalfedgeId id(h);
-            items_[--begin_[low(id).index()]] = {high(id), id};
-        }
-    }
-
-    void pair_bucket(std::size_t v, std::vector<HalfedgeId>& twin) {
-        const auto first = items_.begin() + begin_[v];
-        const auto last = items_.begin() + begin_[v + 1];
-        if (last - first > 1) std::sort(first, last);
-        for (auto run = first; run != last;) {
-            auto end = run + 1;
-            while (end != last && end->high == run->high) ++end;
-            if (end - run > 2) {
-                crowded_.add(v, run->high.index());
-            } else if (end - run == 2) {
-                if (origin(run[0].h) == origin(run[1].h)) inconsistent_.add(v, run->high.index());
-                twin[run[0].h.index()] = run[1].h;
-                twin[run[1].h.index()] = run[0].h;
-            }
-            run = end;
-        }
-    }
-
-    std::span<const VertexId> origin_;
-    std::vector<std::uint32_t> begin_;
-    std::vector<Item> items_;
-    Offenders crowded_;
-    Offenders inconsistent_;
-};
+    std::vector<HalfedgeId> twin =
+        EdgeGroups<HalfedgeId>(vertex_count, origin.size(), low).replace_links(high, pair_up);
+    crowded.raise(
+        ErrorCode::non_manifold_edge,
+        fmt::format("the edge between vertices {} and {} has more than two faces{}; `delmesh repair` cuts the "
+                    "mesh open there",
+                    crowded.at(0), crowded.at(1), crowded.others()));
+    inconsistent.raise(ErrorCode::inconsistent_edge,
+                       fmt::format("the two faces at the edge between vertices {} and {} are oriented differently{}; "
+                                   "`delmesh repair` turns faces round",
+                                   inconsistent.at(0), inconsistent.at(1), inconsistent.others()));
+    return twin;
+}
 
 }  // namespace
 
@@ -148,8 +114,7 @@ Mesh::Mesh(PolygonSoup soup) {
     origin_.reserve(soup.corners.size());
     for (const std::uint32_t v : soup.corners) origin_.emplace_back(v);
     soup = PolygonSoup();
-    twin_.resize(origin_.size());
-    Twins(origin_, points_.size()).pair_up(twin_);
+    twin_ = pair_halfedges(origin_, points_.size());
     find_outgoing();
 }
 
