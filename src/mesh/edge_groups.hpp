@@ -46,13 +46,8 @@ public:
         }
     }
 
-    /// As `visit`; visitor(half-edges, links) has to put something in the place of the links of these half-edges.
-    /// Returns what has become of the links; the object is of no more use.
-    template <class High, class Visitor>
-    std::vector<Halfedge> replace_links(High&& high, Visitor&& visitor) {
-        visit(high, [&](std::span<const Halfedge> halfedges) { visitor(halfedges, links_); });
-        return std::move(links_);
-    }
+    /// An entry for each half-edge. In the last visit the visitor may put anything there for the half-edges it is told.
+    [[nodiscard]] std::vector<Halfedge>& links() { return links_; }
 
 private:
     static constexpr auto none = Halfedge(~std::uint32_t{0});

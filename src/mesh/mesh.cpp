@@ -73,7 +73,9 @@ std::vector<HalfedgeId> pair_halfedges(std::span<const VertexId> origin, std::si
     const auto to = [&](HalfedgeId h) { return origin[Mesh::next(h).index()].value(); };
     const auto low = [&](HalfedgeId h) { return std::min(from(h), to(h)); };
     const auto high = [&](HalfedgeId h) { return std::max(from(h), to(h)); };
-    const auto pair_up = [&](std::span<const HalfedgeId> halfedges, std::vector<HalfedgeId>& twin) {
+    EdgeGroups<HalfedgeId> edges(vertex_count, origin.size(), low);
+    std::vector<HalfedgeId>& twin = edges.links();
+    edges.visit(high, [&](std::span<const HalfedgeId> halfedges) {
         for (const HalfedgeId h : halfedges) twin[h.index()] = HalfedgeId();
         const HalfedgeId h = halfedges.front();
         const HalfedgeId g = halfedges.back();
@@ -84,9 +86,7 @@ std::vector<HalfedgeId> pair_halfedges(std::span<const VertexId> origin, std::si
             twin[h.index()] = g;
             twin[g.index()] = h;
         }
-    };
-    std::vector<HalfedgeId> twin =
-        EdgeGroups<HalfedgeId>(vertex_count, origin.size(), low).replace_links(high, pair_up);
+    });
     crowded.raise(
         ErrorCode::non_manifold_edge,
         fmt::format("the edge between vertices {} and {} has more than two faces{}; `delmesh repair` cuts the "
@@ -96,7 +96,7 @@ std::vector<HalfedgeId> pair_halfedges(std::span<const VertexId> origin, std::si
                        fmt::format("the two faces at the edge between vertices {} and {} are oriented differently{}; "
                                    "`delmesh repair` turns faces round",
                                    inconsistent.at(0), inconsistent.at(1), inconsistent.others()));
-    return twin;
+    return std::move(twin);
 }
 
 }  // namespace

@@ -3,7 +3,9 @@
 
 #include "delmesh/base/context.hpp"
 #include "delmesh/repair/repair.hpp"
+#include "mesh/edge_groups.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -18,27 +20,38 @@ inline constexpr Index none = ~Index{0};
 /// Half-edge h belongs to face h/3 and leaves vertex corners[h]; a corner is named by the half-edge that leaves it.
 /// Vertices at one place keep their own numbers, so that faces which were joined in the input can be told from faces
 /// that merely touch: two faces are *joined* if they share an edge by number, and *meet* if they share it by place.
+/// The vertices are those of the input, and copies of them, which follow at the end.
 struct Complex {
-    std::vector<Vec3> points;
-    std::vector<Index> place;    ///< for each vertex the smallest vertex at the same place
-    std::vector<Index> source;   ///< for each vertex the input vertex it is, or is a copy of
-    std::vector<Index> corners;  ///< three for each face
-    std::vector<Index> origin;   ///< for each face the input face it lies in
-    std::vector<char> turned;    ///< for each face whether it was turned round to agree with its component
-    std::vector<char> mended;    ///< for each face whether its component was joined, turned or cut
+    explicit Complex(std::span<const Vec3> input) : points(input) {}
+    Complex(Complex&&) = default;
+    Complex(const Complex&) = delete;
 
+    std::span<const Vec3> points;  ///< of the input vertices: those of the input, or `moved`
+    std::vector<Vec3> moved;       ///< empty if all are where they were
+    std::vector<Index> places;     ///< for each input vertex the smallest vertex at the same place
+    std::vector<Index> copied;     ///< for each copy the input vertex it is a copy of
+    std::vector<Index> corners;    ///< three for each face
+    std::vector<FaceId> origin;    ///< for each face the input face it lies in
+    std::vector<bool> turned;      ///< for each face whether it was turned round to agree with its component
+    std::vector<bool> mended;      ///< for each face whether its component was joined, turned or cut
+
+    [[nodiscard]] std::size_t vertex_count() const { return points.size() + copied.size(); }
     [[nodiscard]] std::size_t face_count() const { return origin.size(); }
     [[nodiscard]] std::size_t halfedge_count() const { return corners.size(); }
+
+    /// The input vertex that v is, or is a copy of.
+    [[nodiscard]] Index source(Index v) const { return v < points.size() ? v : copied[v - points.size()]; }
+    [[nodiscard]] Index place(Index v) const { return places[source(v)]; }
+    [[nodiscard]] const Vec3& point(Index v) const { return points[source(v)]; }
 
     static Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
     static Index prev(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
     [[nodiscard]] Index from(Index h) const { return corners[h]; }
     [[nodiscard]] Index to(Index h) const { return corners[next(h)]; }
-    [[nodiscard]] Index place_from(Index h) const { return place[corners[h]]; }
-    [[nodiscard]] Index place_to(Index h) const { return place[corners[next(h)]]; }
-    [[nodiscard]] Index place_apex(Index h) const { return place[corners[prev(h)]]; }
-    [[nodiscard]] const Vec3& point(Index v) const { return points[v]; }
+    [[nodiscard]] Index place_from(Index h) const { return place(corners[h]); }
+    [[nodiscard]] Index place_to(Index h) const { return place(corners[next(h)]); }
+    [[nodiscard]] Index place_apex(Index h) const { return place(corners[prev(h)]); }
 
     /// Face f and half-edge h after their face was turned round: the edge of h keeps its place, but its number changes.
     void turn(std::size_t f) { std::swap(corners[3 * f + 1], corners[3 * f + 2]); }
@@ -69,21 +82,31 @@ struct Complex {
     }
 };
 
-/// The half-edges of a complex, grouped by the places that their edges join; in each group in ascending order.
-class EdgeGroups {
-public:
-    explicit EdgeGroups(const Complex& complex) { regroup(complex); }
-    /// Afresh, without room for both.
-    void regroup(const Complex& complex);
+/// For each half-edge the one it is joined with, or none.
+using Partners = std::vector<Index>;
 
-    [[nodiscard]] std::size_t size() const { return starts_.size() - 1; }
-    [[nodiscard]] std::span<const Index> operator[](std::size_t g) const {
-        return {halfedges_.data() + starts_[g], starts_[g + 1] - starts_[g]};
+/// The half-edges of a complex, grouped by the places that their edges join.
+class Edges {
+public:
+    explicit Edges(const Complex& complex)
+        : complex_(complex),
+          groups_(complex.points.size(), complex.halfedge_count(), [&](Index h) { return ends(complex, h).first; }) {}
+
+    /// Calls visitor(half-edges) for each edge; half-edges are in ascending order.
+    template <class Visitor>
+    void visit(Visitor&& visitor) const {
+        groups_.visit([&](Index h) { return ends(complex_, h).second; }, visitor);
     }
+    /// See `EdgeGroups::links`: there is room for partners.
+    [[nodiscard]] std::vector<Index>& links() { return groups_.links(); }
 
 private:
-    std::vector<Index> halfedges_;
-    std::vector<Index> starts_;
+    static std::pair<Index, Index> ends(const Complex& complex, Index h) {
+        return std::minmax({complex.place_from(h), complex.place_to(h)});
+    }
+
+    const Complex& complex_;
+    EdgeGroups<Index> groups_;
 };
 
 /// What was found so far.
@@ -118,26 +141,27 @@ struct Doubled {
     bool dropped = false;  ///< some were dropped
     bool kept = false;     ///< some are still double, as both layers are needed
 };
-/// Drops faces at the place of another one, unless both layers are needed. `groups` hold before and after.
-Doubled remove_duplicates(Complex& complex, EdgeGroups& groups, Log& log);
+/// Drops faces at the place of another one, unless both layers are needed. `edges` hold no more if any were dropped.
+Doubled remove_duplicates(Complex& complex, const Edges& edges, Log& log);
 
-/// For each half-edge the one it is joined with, or none.
-using Partners = std::vector<Index>;
-/// Joins the half-edges of each edge in pairs; at most one of each edge stays alone.
-[[nodiscard]] Partners pair_halfedges(const Complex& complex, const EdgeGroups& groups, Log& log,
-                                      const Context* context);
+struct Joined {
+    Partners partners;
+    bool crowded = false;  ///< some edges have more than two half-edges
+};
+/// Joins the half-edges of each edge in pairs; at most one of each edge stays alone. `edges` are used up.
+[[nodiscard]] Joined pair_halfedges(const Complex& complex, Edges& edges, Log& log, const Context* context);
 /// Turns faces so that partners run in opposite directions, and parts those that can not. Returns how much was parted,
-/// as a sum of lengths in a fixed unit: 0 if nothing was. `groups` hold before and after.
-std::uint64_t orient(Complex& complex, EdgeGroups& groups, Partners& partners, Log& log, const Context* context);
+/// as a sum of lengths in a fixed unit: 0 if nothing was.
+std::uint64_t orient(Complex& complex, Partners& partners, Log& log, const Context* context);
 /// Exchanges partners at edges that would join the same two vertices twice, and numbers the vertices so that partners
 /// share their ends and nothing else does.
-void separate_fans(Complex& complex, const EdgeGroups& groups, Partners& partners, Log& log);
+void separate_fans(Complex& complex, Joined& joined, Log& log);
 /// Drops the back of each triangle that is joined with its own back alone and has an obtuse angle. True if there were
-/// any; neither `partners` nor any groups hold then.
+/// any; `partners` do not hold then.
 bool open_pillows(Complex& complex, const Partners& partners, Log& log);
 /// Turns the outermost closed components outwards, and with them what lies inside. Where all of them face inwards and
-/// no face was turned before, that is how the mesh is meant, and it stays, unless `always` is set. Neither `partners`
-/// nor any groups hold afterwards.
+/// no face was turned before, that is how the mesh is meant, and it stays, unless `always` is set. `partners` do not
+/// hold afterwards.
 void turn_outward(Complex& complex, const Partners& partners, bool always, Log& log);
 
 }  // namespace delmesh::repairing

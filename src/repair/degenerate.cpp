@@ -12,9 +12,9 @@ namespace delmesh::repairing {
 namespace {
 
 bool is_needle(const Complex& complex, std::size_t f) {
-    const Index a = complex.place[complex.corners[3 * f]];
-    const Index b = complex.place[complex.corners[3 * f + 1]];
-    const Index c = complex.place[complex.corners[3 * f + 2]];
+    const Index a = complex.place(complex.corners[3 * f]);
+    const Index b = complex.place(complex.corners[3 * f + 1]);
+    const Index c = complex.place(complex.corners[3 * f + 2]);
     return a == b || b == c || c == a;
 }
 
@@ -37,7 +37,7 @@ void drop_needles(Complex& complex, Log& log) {
         if (!is_needle(complex, f)) continue;
         gone[f] = 1;
         any = true;
-        log.add(Defect::zero_length_edge, complex.origin[f]);
+        log.add(Defect::zero_length_edge, complex.origin[f].index());
     }
     if (any) complex.drop_faces([&](std::size_t f) { return gone[f] != 0; });
 }
@@ -63,7 +63,7 @@ public:
         std::vector<Index> stack;
         for (std::size_t i = caps_.size(); i-- > 0;)
             if (gone_[caps_[i]] == 0) stack.push_back(caps_[i]);
-        for (std::size_t i = stack.size(); i-- > 0;) log_.add(Defect::zero_area, complex_.origin[stack[i]]);
+        for (std::size_t i = stack.size(); i-- > 0;) log_.add(Defect::zero_area, complex_.origin[stack[i]].index());
         for (std::size_t steps = 0; !stack.empty(); ++steps) {
             if (steps % 1024 == 0) check_cancelled(context);
             const Index f = stack.back();
@@ -122,7 +122,7 @@ private:
     }
     void drop_and_say_so(Index f) {
         drop(f);
-        log_.add(Defect::zero_area_dropped, complex_.origin[f]);
+        log_.add(Defect::zero_area_dropped, complex_.origin[f].index());
     }
 
     /// Caps that are connected with no face that has area cover nothing: dropped together, whatever they look like.

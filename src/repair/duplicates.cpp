@@ -18,32 +18,31 @@ struct Layers {
 
 class DuplicateRemover {
 public:
-    DuplicateRemover(Complex& complex, EdgeGroups& groups, Log& log)
+    DuplicateRemover(Complex& complex, const Edges& edges, Log& log)
         : complex_(complex),
           log_(log),
-          groups_(groups),
+          edges_(edges),
           gone_(complex.face_count(), 0) {}
 
     Doubled run() {
-        for (std::size_t g = 0; g < groups_.size(); ++g) find_in(groups_[g]);
+        edges_.visit([&](std::span<const Index> edge) { find_in(edge); });
         Doubled result;
         if (!layers_.empty()) result.kept = judge_patches();
         result.dropped = std::find(gone_.begin(), gone_.end(), 1) != gone_.end();
         if (!result.dropped) return result;
         for (std::size_t f = 0; f < gone_.size(); ++f)
-            if (gone_[f] != 0) log_.add(Defect::duplicate_face, complex_.origin[f]);
+            if (gone_[f] != 0) log_.add(Defect::duplicate_face, complex_.origin[f].index());
         complex_.drop_faces([&](std::size_t f) { return gone_[f] != 0; });
-        groups_.regroup(complex_);
         return result;
     }
 
 private:
     /// Finds the faces at one place that have their largest place opposite to this edge, so that each is found once.
-    void find_in(std::span<const Index> group) {
-        if (group.size() < 2) return;
-        const Index high = std::max(complex_.place_from(group[0]), complex_.place_to(group[0]));
+    void find_in(std::span<const Index> edge) {
+        if (edge.size() < 2) return;
+        const Index high = std::max(complex_.place_from(edge[0]), complex_.place_to(edge[0]));
         sides_.clear();
-        for (const Index h : group)
+        for (const Index h : edge)
             if (complex_.place_apex(h) > high) sides_.push_back(h);
         if (sides_.size() < 2) return;
         std::stable_sort(sides_.begin(), sides_.end(),
@@ -89,14 +88,14 @@ private:
         layer_of_.assign(complex_.face_count(), none);
         for (Index i = 0; i < layers_.size(); ++i) layer_of_[layers_[i].first] = layer_of_[layers_[i].second] = i;
         UnionFind patch_of(layers_.size());
-        for (std::size_t g = 0; g < groups_.size(); ++g) connect(groups_[g], patch_of);
+        edges_.visit([&](std::span<const Index> edge) { connect(edge, patch_of); });
         std::vector<Patch> patches(layers_.size());
         for (Index i = 0; i < layers_.size(); ++i) {
             Patch& patch = patches[patch_of.find(i)];
             ++patch.size;
             patch.opposite += layers_[i].opposite ? 1 : 0;
         }
-        for (std::size_t g = 0; g < groups_.size(); ++g) account(groups_[g], patch_of, patches);
+        edges_.visit([&](std::span<const Index> edge) { account(edge, patch_of, patches); });
         bool any_kept = false;
         for (Index i = 0; i < layers_.size(); ++i) {
             if (patches[patch_of.find(i)].stays_double())
@@ -107,9 +106,9 @@ private:
         return any_kept;
     }
 
-    void connect(std::span<const Index> group, UnionFind& patch_of) const {
+    void connect(std::span<const Index> edge, UnionFind& patch_of) const {
         Index first = none;
-        for (const Index h : group) {
+        for (const Index h : edge) {
             const Index layer = layer_of_[h / 3];
             if (layer == none) continue;
             if (first == none) first = layer;
@@ -117,11 +116,11 @@ private:
         }
     }
 
-    void account(std::span<const Index> group, UnionFind& patch_of, std::vector<Patch>& patches) const {
+    void account(std::span<const Index> edge, UnionFind& patch_of, std::vector<Patch>& patches) const {
         std::size_t single = 0;
         std::size_t in_layers = 0;
         Index layer = none;
-        for (const Index h : group) {
+        for (const Index h : edge) {
             if (layer_of_[h / 3] != none) {
                 layer = layer_of_[h / 3];
                 ++in_layers;
@@ -140,7 +139,7 @@ private:
 
     Complex& complex_;
     Log& log_;
-    EdgeGroups& groups_;
+    const Edges& edges_;
     std::vector<char> gone_;
     std::vector<Layers> layers_;
     std::vector<Index> layer_of_;
@@ -149,8 +148,8 @@ private:
 
 }  // namespace
 
-Doubled remove_duplicates(Complex& complex, EdgeGroups& groups, Log& log) {
-    return DuplicateRemover(complex, groups, log).run();
+Doubled remove_duplicates(Complex& complex, const Edges& edges, Log& log) {
+    return DuplicateRemover(complex, edges, log).run();
 }
 
 }  // namespace delmesh::repairing

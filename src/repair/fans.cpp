@@ -2,41 +2,107 @@
 // for one thing: a fan that passes the same edge twice would need two edges between the same two vertices. There the
 // partners are exchanged, which parts the fan in two at both ends of the edge and leaves nobody alone.
 
+#include "base/let_go.hpp"
 #include "repair/complex.hpp"
-#include "repair/union_find.hpp"
 
 #include <algorithm>
 
 namespace delmesh::repairing {
 namespace {
 
+/// Walks over the corners of a fan, first one way round, then the other.
+class Walk {
+public:
+    explicit Walk(const Partners& partners) : partners_(partners) {}
+
+    void start(Index corner) {
+        start_ = corner;
+        forward_ = true;
+        seen_.assign(1, corner);
+    }
+    /// False once all corners were seen.
+    bool step() {
+        if (forward_) {
+            const Index next = partners_[Complex::prev(seen_.back())];
+            if (next == start_) return false;
+            if (next != none) {
+                seen_.push_back(next);
+                return true;
+            }
+            forward_ = false;
+            back_ = start_;
+        }
+        const Index other = partners_[back_];
+        if (other == none) return false;
+        back_ = Complex::next(other);
+        seen_.push_back(back_);
+        return true;
+    }
+    [[nodiscard]] const std::vector<Index>& seen() const { return seen_; }
+
+private:
+    const Partners& partners_;
+    Index start_ = none;
+    Index back_ = none;
+    bool forward_ = true;
+    std::vector<Index> seen_;
+};
+
 class FanSeparator {
 public:
-    FanSeparator(Complex& complex, const EdgeGroups& groups, Partners& partners, Log& log)
-        : complex_(complex),
-          groups_(groups),
-          partners_(partners),
-          log_(log) {}
+    FanSeparator(Complex& complex, Partners& partners, Log& log) : complex_(complex), partners_(partners), log_(log) {}
 
-    void run() {
-        name_fans();
-        for (std::size_t g = 0; g < groups_.size(); ++g)
-            if (groups_[g].size() > 2) part_double_edges(groups_[g]);
-        number_vertices();
+    /// Exchanges partners where an edge would be there twice.
+    void part_double_edges() {
+        std::vector<Index> crowded;
+        std::vector<std::size_t> ends;
+        Edges(complex_).visit([&](std::span<const Index> edge) {
+            if (edge.size() <= 2) return;
+            crowded.insert(crowded.end(), edge.begin(), edge.end());
+            ends.push_back(crowded.size());
+        });
+        fan_.resize(complex_.halfedge_count());
+        visit_fans([&](const std::vector<Index>& corners) {
+            for (const Index corner : corners) fan_[corner] = next_fan_;
+            ++next_fan_;
+        });
+        std::size_t begin = 0;
+        for (const std::size_t end : ends) {
+            part_at(std::span(crowded).subspan(begin, end - begin));
+            begin = end;
+        }
+        let_go(fan_);
+    }
+
+    /// Each fan gets the smallest vertex number that its corners had; where several fans want the same, the first one
+    /// gets it and the others get copies.
+    void number_vertices() {
+        std::vector<char> taken(complex_.vertex_count(), 0);
+        visit_fans([&](const std::vector<Index>& corners) {
+            Index v = none;
+            for (const Index corner : corners) v = std::min(v, complex_.corners[corner]);
+            if (taken[v] != 0)
+                v = copy_vertex(v, taken);
+            else
+                taken[v] = 1;
+            for (const Index corner : corners) complex_.corners[corner] = v;
+        });
     }
 
 private:
-    /// `fan_` of a corner: a number that the corners of its fan share.
-    void name_fans() {
-        UnionFind sets(complex_.halfedge_count());
-        for (Index h = 0; h < partners_.size(); ++h) {
-            const Index g = partners_[h];
-            if (g == none || g < h) continue;
-            sets.unite(h, Complex::next(g));
-            sets.unite(Complex::next(h), g);
+    /// Calls visitor(corners) for each fan, in the order of their first corners.
+    template <class Visitor>
+    void visit_fans(Visitor&& visitor) const {
+        std::vector<bool> seen(partners_.size(), false);
+        Walk walk(partners_);
+        for (Index corner = 0; corner < seen.size(); ++corner) {
+            if (seen[corner]) continue;
+            walk.start(corner);
+            while (walk.step()) {
+            }
+            for (const Index other : walk.seen()) seen[other] = true;
+            visitor(walk.seen());
         }
-        fan_ = sets.number_sets();
-        for (const Index fan : fan_) next_fan_ = std::max(next_fan_, fan + 1);
     }
 
     /// An edge of the mesh to be, at a place where there are several: one or two half-edges.
@@ -50,7 +116,7 @@ private:
         return {fan_[Complex::next(e.against)], fan_[e.against]};
     }
 
-    void part_double_edges(std::span<const Index> group) {
+    void part_at(std::span<const Index> group) {
         std::vector<Edge> edges = collect_edges(group);
         const auto in_order = [&](const Edge& a, const Edge& b) { return ends(a) < ends(b); };
         for (bool again = true; again;) {
@@ -87,44 +153,13 @@ private:
         rename_smaller(end(a), end(b));
     }
 
-    /// Walks over the corners of a fan, first one way round, then the other.
-    class Walk {
-    public:
-        Walk(const Partners& partners, Index corner) : partners_(partners), start_(corner), seen_{corner} {}
-
-        /// False once all corners were seen.
-        bool step() {
-            if (forward_) {
-                const Index next = partners_[Complex::prev(seen_.back())];
-                if (next == start_) return false;
-                if (next != none) {
-                    seen_.push_back(next);
-                    return true;
-                }
-                forward_ = false;
-                back_ = start_;
-            }
-            const Index other = partners_[back_];
-            if (other == none) return false;
-            back_ = Complex::next(other);
-            seen_.push_back(back_);
-            return true;
-        }
-        [[nodiscard]] const std::vector<Index>& seen() const { return seen_; }
-
-    private:
-        const Partners& partners_;
-        Index start_;
-        Index back_ = none;
-        bool forward_ = true;
-        std::vector<Index> seen_;
-    };
-
     /// Two corners were of one fan, which is parted now: the smaller part gets a new name, so that naming costs
     /// O(n log n) in all.
     void rename_smaller(Index a, Index b) {
-        Walk from_a(partners_, a);
-        Walk from_b(partners_, b);
+        Walk from_a(partners_);
+        Walk from_b(partners_);
+        from_a.start(a);
+        from_b.start(b);
         bool a_ended = false;
         while (true) {
             if (!from_a.step()) {
@@ -137,50 +172,27 @@ private:
         ++next_fan_;
     }
 
-    /// Each fan gets the smallest vertex number that its corners had; where several fans want the same, the first one
-    /// gets it and the others get copies.
-    void number_vertices() {
-        std::vector<Index> smallest(next_fan_, none);
-        for (Index h = 0; h < fan_.size(); ++h) smallest[fan_[h]] = std::min(smallest[fan_[h]], complex_.corners[h]);
-        std::vector<Index> number(next_fan_, none);
-        std::vector<char> taken(complex_.points.size(), 0);
-        for (Index h = 0; h < fan_.size(); ++h) {
-            Index& v = number[fan_[h]];
-            if (v != none) continue;
-            v = smallest[fan_[h]];
-            if (taken[v] != 0)
-                v = copy_vertex(v, taken);
-            else
-                taken[v] = 1;
-        }
-        for (Index h = 0; h < fan_.size(); ++h) complex_.corners[h] = number[fan_[h]];
-    }
-
     Index copy_vertex(Index v, std::vector<char>& taken) {
-        if (taken[v] == 1) log_.add(Defect::non_manifold_vertex, complex_.source[v]);
+        const Index source = complex_.source(v);
+        if (taken[v] == 1) log_.add(Defect::non_manifold_vertex, source);
         taken[v] = 2;
-        // By value: the arrays may move.
-        const Vec3 point = complex_.points[v];
-        const Index place = complex_.place[v];
-        const Index source = complex_.source[v];
-        complex_.points.push_back(point);
-        complex_.place.push_back(place);
-        complex_.source.push_back(source);
-        return static_cast<Index>(complex_.points.size() - 1);
+        complex_.copied.push_back(source);
+        return static_cast<Index>(complex_.vertex_count() - 1);
     }
 
     Complex& complex_;
-    const EdgeGroups& groups_;
     Partners& partners_;
     Log& log_;
-    std::vector<Index> fan_;
+    std::vector<Index> fan_;  ///< of a corner: a number that the corners of its fan share
     Index next_fan_ = 0;
 };
 
 }  // namespace
 
-void separate_fans(Complex& complex, const EdgeGroups& groups, Partners& partners, Log& log) {
-    FanSeparator(complex, groups, partners, log).run();
+void separate_fans(Complex& complex, Joined& joined, Log& log) {
+    FanSeparator separator(complex, joined.partners, log);
+    if (joined.crowded) separator.part_double_edges();
+    separator.number_vertices();
 }
 
 }  // namespace delmesh::repairing

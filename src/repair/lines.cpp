@@ -37,19 +37,19 @@ private:
 
     [[nodiscard]] bool is_possible(const Line& line) const {
         const std::size_t n = soup_.points.size();
-        return line[0] < n && line[1] < n && complex_.place[line[0]] != complex_.place[line[1]];
+        return line[0] < n && line[1] < n && complex_.place(line[0]) != complex_.place(line[1]);
     }
 
     [[nodiscard]] Edge edge(Index a, Index b) const {
-        if (complex_.place[b] < complex_.place[a]) std::swap(a, b);
-        return {{complex_.place[a], complex_.place[b]}, {a, b}};
+        if (complex_.place(b) < complex_.place(a)) std::swap(a, b);
+        return {{complex_.place(a), complex_.place(b)}, {a, b}};
     }
 
     /// The edges at the places of lines, each once, sorted.
     void find_edges() {
         std::vector<char> wanted(complex_.points.size(), 0);
         for (const Line& line : soup_.lines)
-            if (is_possible(line)) wanted[complex_.place[line[0]]] = wanted[complex_.place[line[1]]] = 1;
+            if (is_possible(line)) wanted[complex_.place(line[0])] = wanted[complex_.place(line[1])] = 1;
         for (Index h = 0; h < complex_.halfedge_count(); ++h)
             if (wanted[complex_.place_from(h)] != 0 && wanted[complex_.place_to(h)] != 0)
                 edges_.push_back(edge(complex_.from(h), complex_.to(h)));
@@ -59,7 +59,7 @@ private:
     void find_first_vertices() {
         first_at_.assign(complex_.points.size(), none);
         for (Index v = static_cast<Index>(number_.size()); v-- > 0;)
-            if (number_[v] != none) first_at_[complex_.place[v]] = v;
+            if (number_[v] != none) first_at_[complex_.place(v)] = v;
     }
 
     void carry(const Line& line) {
@@ -69,7 +69,7 @@ private:
         const auto first = std::lower_bound(edges_.begin(), edges_.end(), Edge{wanted.places, {0, 0}});
         const auto last = std::upper_bound(first, edges_.end(), Edge{wanted.places, {none, none}});
         const auto is_exact = [&](const Edge& e) {
-            return complex_.source[e.ends[0]] == wanted.ends[0] && complex_.source[e.ends[1]] == wanted.ends[1];
+            return complex_.source(e.ends[0]) == wanted.ends[0] && complex_.source(e.ends[1]) == wanted.ends[1];
         };
         const bool exact = std::any_of(first, last, is_exact);
         for (auto e = first; e != last; ++e)
@@ -78,7 +78,7 @@ private:
     }
 
     /// The vertex itself if it was kept, else the first at its place.
-    [[nodiscard]] Index kept(Index v) const { return number_[v] != none ? v : first_at_[complex_.place[v]]; }
+    [[nodiscard]] Index kept(Index v) const { return number_[v] != none ? v : first_at_[complex_.place(v)]; }
 
     void add(Line ends, bool backwards) {
         if (ends[0] == none || ends[1] == none) return;

@@ -11,12 +11,13 @@ namespace {
 
 class Orienter {
 public:
-    Orienter(Complex& complex, EdgeGroups& groups, Partners& partners, Log& log)
+    Orienter(Complex& complex, Partners& partners, Log& log)
         : complex_(complex),
-          groups_(groups),
           partners_(partners),
           log_(log),
-          turn_(complex.face_count(), 0) {}
+          turn_(complex.face_count(), 0) {
+        component_.reserve(complex.face_count());
+    }
 
     std::uint64_t run(const Context* context) {
         log_.forget(Defect::non_orientable);
@@ -97,7 +98,7 @@ private:
 
     void note_mended() {
         if (is_settled()) return;
-        for (const Index f : component_) complex_.mended[f] = 1;
+        for (const Index f : component_) complex_.mended[f] = true;
     }
 
     void turn_faces() {
@@ -106,12 +107,11 @@ private:
         for (Index f = 0; f < turn_.size(); ++f) {
             if (turn_[f] != 0) {
                 complex_.turn(f);
-                complex_.turned[f] ^= 1;
+                complex_.turned[f].flip();
                 std::swap(partners_[3 * f], partners_[3 * f + 2]);
             }
             for (Index h = 3 * f; h < 3 * f + 3; ++h) partners_[h] = moved(partners_[h]);
         }
-        groups_.regroup(complex_);
     }
 
     /// Parts partners that run in the same direction. Where that leaves half-edges of both directions alone at one
@@ -124,17 +124,17 @@ private:
             }
         std::vector<Index> along;
         std::vector<Index> against;
-        for (std::size_t e = 0; e < groups_.size(); ++e) {
+        Edges(complex_).visit([&](std::span<const Index> edge) {
             along.clear();
             against.clear();
-            for (const Index h : groups_[e])
-                if (partners_[h] == none) (complex_.opposite(h, groups_[e][0]) ? against : along).push_back(h);
+            for (const Index h : edge)
+                if (partners_[h] == none) (complex_.opposite(h, edge[0]) ? against : along).push_back(h);
             for (std::size_t i = 0; i < std::min(along.size(), against.size()); ++i) {
                 partners_[along[i]] = against[i];
                 partners_[against[i]] = along[i];
             }
             cut_ += note_cut(along.size() > against.size() ? along : against, std::min(along.size(), against.size()));
-        }
+        });
     }
 
     /// The half-edges from `start` on stay alone at their edge, in pairs and perhaps one more.
@@ -148,20 +148,19 @@ private:
 
     std::uint64_t report_cuts() {
         for (const Index h : cuts_) {
-            if (complex_.mended[h / 3] != 0)
-                log_.add_pair(Defect::cut_edge, complex_.source[complex_.from(h)], complex_.source[complex_.to(h)]);
+            if (complex_.mended[h / 3])
+                log_.add_pair(Defect::cut_edge, complex_.source(complex_.from(h)), complex_.source(complex_.to(h)));
         }
         for (std::size_t i = 0; i < twisted_starts_.size(); ++i) {
             const auto first = twisted_.begin() + static_cast<std::ptrdiff_t>(i == 0 ? 0 : twisted_starts_[i - 1]);
             const auto last = twisted_.begin() + static_cast<std::ptrdiff_t>(twisted_starts_[i]);
-            if (complex_.mended[*first] != 0 && std::any_of(first, last, [&](Index f) { return is_cut_[f] != 0; }))
-                log_.add(Defect::non_orientable, complex_.origin[*first]);
+            if (complex_.mended[*first] && std::any_of(first, last, [&](Index f) { return is_cut_[f] != 0; }))
+                log_.add(Defect::non_orientable, complex_.origin[*first].index());
         }
         return cut_;
     }
 
     Complex& complex_;
-    EdgeGroups& groups_;
     Partners& partners_;
     Log& log_;
     std::vector<char> turn_;
@@ -176,8 +175,8 @@ private:
 
 }  // namespace
 
-std::uint64_t orient(Complex& complex, EdgeGroups& groups, Partners& partners, Log& log, const Context* context) {
-    return Orienter(complex, groups, partners, log).run(context);
+std::uint64_t orient(Complex& complex, Partners& partners, Log& log, const Context* context) {
+    return Orienter(complex, partners, log).run(context);
 }
 
 }  // namespace delmesh::repairing

@@ -14,7 +14,7 @@ namespace delmesh::repairing {
 namespace {
 
 struct Component {
-    std::vector<Index> faces;
+    std::span<const Index> faces;
     Index extreme = none;  ///< the vertex with the largest coordinates, in the order x, y, z
     bool inward = false;   ///< it encloses a negative volume
     bool outward = false;  ///< it encloses a positive volume
@@ -36,7 +36,7 @@ public:
         if (!always && is_consistent()) return;
         for (const Component& c : closed_) {
             if (!closed_[c.outermost].inward) continue;
-            if (c.parent == none) log_.add(Defect::inside_out, complex_.origin[c.faces.front()]);
+            if (c.parent == none) log_.add(Defect::inside_out, complex_.origin[c.faces.front()].index());
             for (const Index f : c.faces) complex_.turn(f);
         }
     }
@@ -44,34 +44,38 @@ public:
 private:
     /// True if no face had to be turned to agree with its neighbours and no outermost component faces outwards.
     [[nodiscard]] bool is_consistent() const {
-        return std::none_of(complex_.turned.begin(), complex_.turned.end(), [](char t) { return t != 0; }) &&
+        return std::none_of(complex_.turned.begin(), complex_.turned.end(), [](bool t) { return t; }) &&
                std::none_of(closed_.begin(), closed_.end(),
                             [](const Component& c) { return c.parent == none && c.outward; });
     }
 
     void find_closed_components() {
         std::vector<char> seen(complex_.face_count(), 0);
-        std::vector<Index> faces;
+        faces_.reserve(seen.size());  // so that they stay where they are
         for (Index root = 0; root < seen.size(); ++root) {
             if (seen[root] != 0) continue;
             bool closed = true;
-            faces.assign(1, root);
+            const std::size_t first = faces_.size();
+            faces_.push_back(root);
             seen[root] = 1;
-            for (std::size_t i = 0; i < faces.size(); ++i)
-                for (Index h = 3 * faces[i]; h < 3 * faces[i] + 3; ++h) {
+            for (std::size_t i = first; i < faces_.size(); ++i)
+                for (Index h = 3 * faces_[i]; h < 3 * faces_[i] + 3; ++h) {
                     if (partners_[h] == none) {
                         closed = false;
                     } else if (seen[partners_[h] / 3] == 0) {
                         seen[partners_[h] / 3] = 1;
-                        faces.push_back(partners_[h] / 3);
+                        faces_.push_back(partners_[h] / 3);
                     }
                 }
-            if (closed) closed_.push_back(measure(faces));
+            if (closed)
+                closed_.push_back(measure(std::span(faces_).subspan(first)));
+            else
+                faces_.resize(first);
         }
     }
 
     /// Volumes that rounding could explain count as none: a component that is flat has no inside.
-    [[nodiscard]] Component measure(const std::vector<Index>& faces) const {
+    [[nodiscard]] Component measure(std::span<const Index> faces) const {
         Component c;
         c.faces = faces;
         c.extreme = complex_.corners[3 * faces[0]];
@@ -112,13 +116,9 @@ private:
     /// the inside, or one beside it, which has the same parent. Components that intersect get some answer.
     void find_parents() {
         std::vector<Index> component_of(complex_.face_count(), none);
-        std::vector<Index> faces;
         for (Index i = 0; i < closed_.size(); ++i)
-            for (const Index f : closed_[i].faces) {
-                component_of[f] = i;
-                faces.push_back(f);
-            }
-        const TriangleTree tree(complex_, std::move(faces));
+            for (const Index f : closed_[i].faces) component_of[f] = i;
+        const TriangleTree tree(complex_, faces_);
         std::vector<Index> order(closed_.size());
         for (Index i = 0; i < order.size(); ++i) order[i] = i;
         // Whatever a ray meets reaches farther, and has got its parent.
@@ -140,6 +140,7 @@ private:
     Complex& complex_;
     const Partners& partners_;
     Log& log_;
+    std::vector<Index> faces_;  ///< of closed components, one after another
     std::vector<Component> closed_;
 };
 

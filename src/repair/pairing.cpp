@@ -25,16 +25,21 @@ struct Spoke {
 
 class Pairing {
 public:
-    Pairing(const Complex& complex, const EdgeGroups& groups, Log& log)
+    Pairing(const Complex& complex, Edges& edges, Log& log)
         : complex_(complex),
           log_(log),
-          groups_(groups),
-          partner_(complex.halfedge_count(), none) {}
+          edges_(edges),
+          partner_(edges.links()) {}
 
-    Partners run(const Context* context) {
-        for (std::size_t g = 0; g < groups_.size(); ++g) join_without_choice(groups_[g]);
+    Joined run(const Context* context) {
+        bool crowded = false;
+        edges_.visit([&](std::span<const Index> edge) {
+            for (const Index h : edge) partner_[h] = none;
+            join_without_choice(edge);
+            crowded |= edge.size() > 2;
+        });
         if (!open_.empty()) join_with_choice(context);
-        return std::move(partner_);
+        return {std::move(partner_), crowded};
     }
 
 private:
@@ -44,10 +49,10 @@ private:
     }
 
     /// Joins the faces that share an edge by number with one other face, and the rest if it consists of two.
-    void join_without_choice(std::span<const Index> group) {
-        if (group.size() == 2) return join(group[0], group[1]);
-        if (group.size() < 2) return;
-        rest_.assign(group.begin(), group.end());
+    void join_without_choice(std::span<const Index> edge) {
+        if (edge.size() == 2) return join(edge[0], edge[1]);
+        if (edge.size() < 2) return;
+        rest_.assign(edge.begin(), edge.end());
         const auto numbers = [&](Index h) {
             return std::pair(std::min(complex_.from(h), complex_.to(h)), std::max(complex_.from(h), complex_.to(h)));
         };
@@ -63,8 +68,8 @@ private:
         if (rest_.size() < 2) return;
         open_.insert(open_.end(), rest_.begin(), rest_.end());
         open_starts_.push_back(open_.size());
-        log_.add_pair(Defect::non_manifold_edge, complex_.source[complex_.from(rest_[0])],
-                      complex_.source[complex_.to(rest_[0])]);
+        log_.add_pair(Defect::non_manifold_edge, complex_.source(complex_.from(rest_[0])),
+                      complex_.source(complex_.to(rest_[0])));
     }
 
     void join_with_choice(const Context* context) {
@@ -245,8 +250,8 @@ private:
 
     const Complex& complex_;
     Log& log_;
-    const EdgeGroups& groups_;
-    Partners partner_;
+    Edges& edges_;
+    Partners& partner_;
     Sheets sheets_{0};
     std::vector<Index> rest_;
     std::vector<Index> open_;  ///< half-edges of edges with a choice, edge by edge
@@ -257,8 +262,8 @@ private:
 
 }  // namespace
 
-Partners pair_halfedges(const Complex& complex, const EdgeGroups& groups, Log& log, const Context* context) {
-    return Pairing(complex, groups, log).run(context);
+Joined pair_halfedges(const Complex& complex, Edges& edges, Log& log, const Context* context) {
+    return Pairing(complex, edges, log).run(context);
 }
 
 }  // namespace delmesh::repairing

@@ -33,7 +33,7 @@ bool open_pillows(Complex& complex, const Partners& partners, Log& log) {
         if (back == none || back < f || !is_obtuse(complex, f)) continue;
         gone[back] = 1;
         found = true;
-        log.add(Defect::duplicate_face, complex.origin[back]);
+        log.add(Defect::duplicate_face, complex.origin[back].index());
     }
     if (found) complex.drop_faces([&](std::size_t f) { return gone[f] != 0; });
     return found;

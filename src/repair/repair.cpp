@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 namespace delmesh {
 namespace repairing {
@@ -20,91 +21,94 @@ void make_manifold(Complex& complex, const RepairOptions& options, Log& log, con
     std::uint64_t cut_before = std::numeric_limits<std::uint64_t>::max();
     Log later;
     for (bool is_first = true;; is_first = false) {
-        EdgeGroups groups(complex);
-        const Doubled doubled = remove_duplicates(complex, groups, log);
-        if (doubled.dropped) cut_before = std::numeric_limits<std::uint64_t>::max();
-        Partners partners = pair_halfedges(complex, groups, is_first ? log : later, context);
-        const std::uint64_t cut = orient(complex, groups, partners, log, context);
-        separate_fans(complex, groups, partners, log);
-        if (open_pillows(complex, partners, log)) {
+        std::optional<Edges> edges(complex);
+        const Doubled doubled = remove_duplicates(complex, *edges, log);
+        if (doubled.dropped) {
+            edges.emplace(complex);
+            cut_before = std::numeric_limits<std::uint64_t>::max();
+        }
+        Joined joined = pair_halfedges(complex, *edges, is_first ? log : later, context);
+        edges.reset();
+        const std::uint64_t cut = orient(complex, joined.partners, log, context);
+        separate_fans(complex, joined, log);
+        if (open_pillows(complex, joined.partners, log)) {
             cut_before = std::numeric_limits<std::uint64_t>::max();
             continue;
         }
-        turn_outward(complex, partners, options.outward, log);
+        turn_outward(complex, joined.partners, options.outward, log);
         report_progress(context, "repair", 0.9);
         if ((cut == 0 && !doubled.kept) || cut >= cut_before) return;
         cut_before = cut;
     }
 }
 
-/// The soup that comes of a complex, and what is to be said about it.
+/// The soup that comes of a complex, which is used up, and what is to be said about it.
 class Outcome {
 public:
-    Outcome(const PolygonSoup& input, const Complex& complex, Log& log) : input_(input), complex_(complex), log_(log) {
+    Outcome(const PolygonSoup& input, Complex& complex, Log& log)
+        : input_(input),
+          complex_(complex),
+          log_(log),
+          number_(complex.vertex_count(), none) {
         number_vertices();
         report_turned_faces();
         report_lost_vertices();
-        write_soup();
+        soup_.stored = input_.stored;
+        soup_.lines = carry_lines(input_, complex_, number_, log_);
+        soup_.corners = std::move(complex_.corners);
+        for (Index& v : soup_.corners) v = number_[v];
     }
 
     /// True if nothing was changed, `triangles` being the corners of the input's triangles.
     [[nodiscard]] bool is_input(const std::vector<Index>& triangles) const {
         const std::size_t n = input_.points.size();
-        return soup.points.size() == n && complex_.points.size() == n && soup.corners == triangles &&
-               soup.lines == input_.lines && std::equal(soup.points.begin(), soup.points.end(), input_.points.begin());
+        return kept_ == n && complex_.vertex_count() == n && soup_.corners == triangles &&
+               soup_.lines == input_.lines &&
+               std::equal(complex_.points.begin(), complex_.points.end(), input_.points.begin());
     }
 
-    PolygonSoup soup;
-    std::vector<VertexId> vertex_origin;
-    std::vector<FaceId> face_origin;
+    /// The soup, once; the report gets where its elements are from.
+    [[nodiscard]] PolygonSoup finish(RepairReport& report) {
+        soup_.points.reserve(kept_);
+        report.vertex_origin.reserve(kept_);
+        for (Index v = 0; v < number_.size(); ++v) {
+            if (number_[v] == none) continue;
+            soup_.points.push_back(complex_.point(v));
+            report.vertex_origin.emplace_back(complex_.source(v));
+        }
+        report.face_origin = std::move(complex_.origin);
+        return std::move(soup_);
+    }
 
 private:
     void number_vertices() {
-        number_.assign(complex_.points.size(), none);
         for (const Index v : complex_.corners) number_[v] = 0;
-        Index count = 0;
         for (Index& n : number_)
-            if (n != none) n = count++;
+            if (n != none) n = kept_++;
     }
 
     void report_turned_faces() {
         for (std::size_t f = 0; f < complex_.face_count(); ++f)
-            if (complex_.turned[f] != 0) log_.add(Defect::inconsistent_face, complex_.origin[f]);
+            if (complex_.turned[f]) log_.add(Defect::inconsistent_face, complex_.origin[f].index());
     }
 
     void report_lost_vertices() {
-        std::vector<char> place_kept(complex_.points.size(), 0);
-        for (const Index v : complex_.corners) place_kept[complex_.place[v]] = 1;
-        for (std::size_t v = 0; v < input_.points.size(); ++v) {
+        std::vector<char> place_kept(input_.points.size(), 0);
+        for (const Index v : complex_.corners) place_kept[complex_.place(v)] = 1;
+        for (Index v = 0; v < input_.points.size(); ++v) {
             // Not finite or moved: has been reported.
-            if (number_[v] != none || !(complex_.points[v] == input_.points[v]) || !is_finite(input_.points[v]))
+            if (number_[v] != none || !(complex_.point(v) == input_.points[v]) || !is_finite(input_.points[v]))
                 continue;
-            log_.add(place_kept[complex_.place[v]] != 0 ? Defect::duplicate_vertex : Defect::isolated_vertex, v);
+            log_.add(place_kept[complex_.place(v)] != 0 ? Defect::duplicate_vertex : Defect::isolated_vertex, v);
         }
-    }
-
-    void write_soup() {
-        soup.stored = input_.stored;
-        const auto kept = static_cast<std::size_t>(
-            std::count_if(number_.begin(), number_.end(), [](const Index n) { return n != none; }));
-        soup.points.reserve(kept);
-        vertex_origin.reserve(kept);
-        face_origin.reserve(complex_.face_count());
-        for (std::size_t v = 0; v < number_.size(); ++v) {
-            if (number_[v] == none) continue;
-            soup.points.push_back(complex_.points[v]);
-            vertex_origin.emplace_back(complex_.source[v]);
-        }
-        soup.corners.reserve(complex_.corners.size());
-        for (const Index v : complex_.corners) soup.corners.push_back(number_[v]);
-        for (const Index f : complex_.origin) face_origin.emplace_back(f);
-        soup.lines = carry_lines(input_, complex_, number_, log_);
     }
 
     const PolygonSoup& input_;
-    const Complex& complex_;
+    Complex& complex_;
     Log& log_;
-    std::vector<Index> number_;
+    std::vector<Index> number_;  ///< of each vertex in the output, or none
+    Index kept_ = 0;
+    PolygonSoup soup_;
 };
 
 void check_options(const RepairOptions& options) {
@@ -142,9 +146,7 @@ RepairReport run(const PolygonSoup& soup, const RepairOptions& options, const Co
     report.changed = !all_passed || !outcome.is_input(soup.is_triangles() ? soup.corners : cut);
     if (report.changed) {
         report.findings = log.findings();
-        report.vertex_origin = std::move(outcome.vertex_origin);
-        report.face_origin = std::move(outcome.face_origin);
-        result = std::move(outcome.soup);
+        result = outcome.finish(report);
     } else {
         // Polygons stay polygons.
         report.vertex_origin = all_ids<VertexId>(soup.points.size());

@@ -79,7 +79,7 @@ void sift_triangles(const PolygonSoup& soup, Sieve& sieve, Complex& complex) {
         const std::span<const Index> kept = sieve.pass(f);
         if (kept.empty()) continue;
         complex.corners.insert(complex.corners.end(), kept.begin(), kept.end());
-        complex.origin.push_back(static_cast<Index>(f));
+        complex.origin.emplace_back(f);
     }
 }
 
@@ -105,7 +105,7 @@ void sift_polygons(const PolygonSoup& soup, Sieve& sieve, Complex& complex, Log&
             continue;
         }
         complex.corners.insert(complex.corners.end(), c, c + 3);
-        complex.origin.push_back(origin[t]);
+        complex.origin.emplace_back(origin[t]);
     }
 }
 
@@ -113,18 +113,14 @@ void sift_polygons(const PolygonSoup& soup, Sieve& sieve, Complex& complex, Log&
 
 Complex sift(const PolygonSoup& soup, Log& log) {
     check_structure(soup);
-    Complex complex;
+    Complex complex(soup.points);
     Sieve sieve(soup, log);
     if (soup.is_triangles())
         sift_triangles(soup, sieve, complex);
     else
         sift_polygons(soup, sieve, complex, log);
-    complex.points = soup.points;
-    complex.place.resize(soup.points.size());
-    complex.source.resize(soup.points.size());
-    for (Index v = 0; v < complex.place.size(); ++v) complex.place[v] = complex.source[v] = v;
-    complex.turned.assign(complex.face_count(), 0);
-    complex.mended.assign(complex.face_count(), 0);
+    complex.turned.assign(complex.face_count(), false);
+    complex.mended.assign(complex.face_count(), false);
     return complex;
 }
 

@@ -59,10 +59,13 @@ std::uint64_t hash_point(const Vec3& p) {
 
 void find_places(Complex& complex, const std::vector<char>& used) {
     VertexTable table(complex.points.size());
+    complex.places.resize(complex.points.size());
     for (Index v = 0; v < complex.points.size(); ++v) {
+        complex.places[v] = v;
         if (used[v] == 0) continue;
         const Vec3& p = complex.points[v];
-        complex.place[v] = table.find_or_put(hash_point(p), v, [&](Index other) { return complex.points[other] == p; });
+        complex.places[v] =
+            table.find_or_put(hash_point(p), v, [&](Index other) { return complex.points[other] == p; });
     }
 }
 
@@ -170,10 +173,14 @@ void move_clusters(Complex& complex, const std::vector<char>& used, double toler
     std::vector<Index> target(complex.points.size());
     for (Index v = 0; v < target.size(); ++v) {
         if (used[v] == 0) continue;
-        target[v] = complex.place[v] == v ? clusters.settle(v) : target[complex.place[v]];
-        if (target[v] == complex.place[v]) continue;
-        complex.points[v] = complex.points[target[v]];
-        complex.place[v] = target[v];
+        target[v] = complex.places[v] == v ? clusters.settle(v) : target[complex.places[v]];
+        if (target[v] == complex.places[v]) continue;
+        if (complex.moved.empty()) {
+            complex.moved.assign(complex.points.begin(), complex.points.end());
+            complex.points = complex.moved;
+        }
+        complex.moved[v] = complex.moved[target[v]];
+        complex.places[v] = target[v];
         log.add(Defect::near_vertex, v);
     }
 }
