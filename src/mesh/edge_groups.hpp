@@ -27,14 +27,15 @@ public:
     }
 
     /// Calls visitor(half-edges) for each edge, in the order of the lower ends, then of the higher ones, which `high`
-    /// tells; half-edges are in ascending order.
-    template <class High, class Visitor>
-    void visit(High&& high, Visitor&& visitor) const {
+    /// tells; half-edges are in ascending order. Leaves out edges whose lower end is not `wanted`.
+    template <class High, class Visitor, class Wanted>
+    void visit(High&& high, Visitor&& visitor, Wanted&& wanted) const {
         std::vector<std::uint64_t> keys;
         std::vector<Halfedge> halfedges;
-        for (const Halfedge first : first_) {
+        for (std::uint32_t v = 0; v < first_.size(); ++v) {
+            if (!wanted(v)) continue;
             keys.clear();
-            for (Halfedge h = first; h != none; h = links_[number(h)])
+            for (Halfedge h = first_[v]; h != none; h = links_[number(h)])
                 keys.push_back(std::uint64_t{high(h)} << 32 | number(h));
             std::sort(keys.begin(), keys.end());
             halfedges.clear();
@@ -44,6 +45,11 @@ public:
                 visitor(std::span<const Halfedge>(&halfedges[begin], end - begin));
             }
         }
+    }
+
+    template <class High, class Visitor>
+    void visit(High&& high, Visitor&& visitor) const {
+        visit(high, visitor, [](std::uint32_t) { return true; });
     }
 
     /// An entry for each half-edge. In the last visit the visitor may put anything there for the half-edges it is told.

@@ -97,6 +97,15 @@ public:
     void visit(Visitor&& visitor) const {
         groups_.visit([&](Index h) { return ends(complex_, h).second; }, visitor);
     }
+    /// Only for edges between marked places.
+    template <class Visitor>
+    void visit_between(const std::vector<bool>& marked, Visitor&& visitor) const {
+        groups_.visit([&](Index h) { return ends(complex_, h).second; },
+                      [&](std::span<const Index> edge) {
+                          if (marked[ends(complex_, edge[0]).second]) visitor(edge);
+                      },
+                      [&](Index place) { return marked[place]; });
+    }
     /// See `EdgeGroups::links`: there is room for partners.
     [[nodiscard]] std::vector<Index>& links() { return groups_.links(); }
 
@@ -107,6 +116,24 @@ private:
 
     const Complex& complex_;
     EdgeGroups<Index> groups_;
+};
+
+/// Some edges, each with its half-edges.
+class EdgeList {
+public:
+    void add(std::span<const Index> edge) {
+        halfedges_.insert(halfedges_.end(), edge.begin(), edge.end());
+        starts_.push_back(static_cast<Index>(halfedges_.size()));
+    }
+
+    [[nodiscard]] std::size_t size() const { return starts_.size() - 1; }
+    [[nodiscard]] std::span<Index> operator[](std::size_t e) {
+        return std::span(halfedges_).subspan(starts_[e], starts_[e + 1] - starts_[e]);
+    }
+
+private:
+    std::vector<Index> halfedges_;
+    std::vector<Index> starts_{0};
 };
 
 /// What was found so far.
@@ -146,13 +173,13 @@ Doubled remove_duplicates(Complex& complex, const Edges& edges, Log& log);
 
 struct Joined {
     Partners partners;
-    bool crowded = false;  ///< some edges have more than two half-edges
+    EdgeList crowded;  ///< edges with more than two half-edges, the half-edges in ascending order
 };
 /// Joins the half-edges of each edge in pairs; at most one of each edge stays alone. `edges` are used up.
 [[nodiscard]] Joined pair_halfedges(const Complex& complex, Edges& edges, Log& log, const Context* context);
 /// Turns faces so that partners run in opposite directions, and parts those that can not. Returns how much was parted,
 /// as a sum of lengths in a fixed unit: 0 if nothing was.
-std::uint64_t orient(Complex& complex, Partners& partners, Log& log, const Context* context);
+std::uint64_t orient(Complex& complex, Joined& joined, Log& log, const Context* context);
 /// Exchanges partners at edges that would join the same two vertices twice, and numbers the vertices so that partners
 /// share their ends and nothing else does.
 void separate_fans(Complex& complex, Joined& joined, Log& log);

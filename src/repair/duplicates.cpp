@@ -88,14 +88,20 @@ private:
         layer_of_.assign(complex_.face_count(), none);
         for (Index i = 0; i < layers_.size(); ++i) layer_of_[layers_[i].first] = layer_of_[layers_[i].second] = i;
         UnionFind patch_of(layers_.size());
-        edges_.visit([&](std::span<const Index> edge) { connect(edge, patch_of); });
+        EdgeList double_edges;
+        std::vector<bool> at_layers(complex_.points.size(), false);
+        for (const Layers& layers : layers_)
+            for (Index h = 3 * layers.first; h < 3 * layers.first + 3; ++h) at_layers[complex_.place_from(h)] = true;
+        edges_.visit_between(at_layers, [&](std::span<const Index> edge) {
+            if (connect(edge, patch_of)) double_edges.add(edge);
+        });
         std::vector<Patch> patches(layers_.size());
         for (Index i = 0; i < layers_.size(); ++i) {
             Patch& patch = patches[patch_of.find(i)];
             ++patch.size;
             patch.opposite += layers_[i].opposite ? 1 : 0;
         }
-        edges_.visit([&](std::span<const Index> edge) { account(edge, patch_of, patches); });
+        for (std::size_t e = 0; e < double_edges.size(); ++e) account(double_edges[e], patch_of, patches);
         bool any_kept = false;
         for (Index i = 0; i < layers_.size(); ++i) {
             if (patches[patch_of.find(i)].stays_double())
@@ -106,7 +112,8 @@ private:
         return any_kept;
     }
 
-    void connect(std::span<const Index> edge, UnionFind& patch_of) const {
+    /// True if there are any double faces at the edge.
+    bool connect(std::span<const Index> edge, UnionFind& patch_of) const {
         Index first = none;
         for (const Index h : edge) {
             const Index layer = layer_of_[h / 3];
@@ -114,6 +121,7 @@ private:
             if (first == none) first = layer;
             patch_of.unite(first, layer);
         }
+        return first != none;
     }
 
     void account(std::span<const Index> edge, UnionFind& patch_of, std::vector<Patch>& patches) const {

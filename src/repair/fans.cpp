@@ -52,25 +52,14 @@ class FanSeparator {
 public:
     FanSeparator(Complex& complex, Partners& partners, Log& log) : complex_(complex), partners_(partners), log_(log) {}
 
-    /// Exchanges partners where an edge would be there twice.
-    void part_double_edges() {
-        std::vector<Index> crowded;
-        std::vector<std::size_t> ends;
-        Edges(complex_).visit([&](std::span<const Index> edge) {
-            if (edge.size() <= 2) return;
-            crowded.insert(crowded.end(), edge.begin(), edge.end());
-            ends.push_back(crowded.size());
-        });
+    /// Exchanges partners at edges that would be there twice.
+    void part_double_edges(EdgeList& crowded) {
         fan_.resize(complex_.halfedge_count());
         visit_fans([&](const std::vector<Index>& corners) {
             for (const Index corner : corners) fan_[corner] = next_fan_;
             ++next_fan_;
         });
-        std::size_t begin = 0;
-        for (const std::size_t end : ends) {
-            part_at(std::span(crowded).subspan(begin, end - begin));
-            begin = end;
-        }
+        for (std::size_t e = 0; e < crowded.size(); ++e) part_at(crowded[e]);
         let_go(fan_);
     }
 
@@ -191,7 +180,7 @@ private:
 
 void separate_fans(Complex& complex, Joined& joined, Log& log) {
     FanSeparator separator(complex, joined.partners, log);
-    if (joined.crowded) separator.part_double_edges();
+    if (joined.crowded.size() > 0) separator.part_double_edges(joined.crowded);
     separator.number_vertices();
 }
 

@@ -11,9 +11,10 @@ namespace {
 
 class Orienter {
 public:
-    Orienter(Complex& complex, Partners& partners, Log& log)
+    Orienter(Complex& complex, Joined& joined, Log& log)
         : complex_(complex),
-          partners_(partners),
+          partners_(joined.partners),
+          crowded_(joined.crowded),
           log_(log),
           turn_(complex.face_count(), 0) {
         component_.reserve(complex.face_count());
@@ -112,6 +113,11 @@ private:
             }
             for (Index h = 3 * f; h < 3 * f + 3; ++h) partners_[h] = moved(partners_[h]);
         }
+        for (std::size_t e = 0; e < crowded_.size(); ++e) {
+            const std::span<Index> edge = crowded_[e];
+            std::transform(edge.begin(), edge.end(), edge.begin(), moved);
+            std::sort(edge.begin(), edge.end());
+        }
     }
 
     /// Parts partners that run in the same direction. Where that leaves half-edges of both directions alone at one
@@ -162,6 +168,7 @@ private:
 
     Complex& complex_;
     Partners& partners_;
+    EdgeList& crowded_;
     Log& log_;
     std::vector<char> turn_;
     std::vector<Index> component_;
@@ -175,8 +182,8 @@ private:
 
 }  // namespace
 
-std::uint64_t orient(Complex& complex, Partners& partners, Log& log, const Context* context) {
-    return Orienter(complex, partners, log).run(context);
+std::uint64_t orient(Complex& complex, Joined& joined, Log& log, const Context* context) {
+    return Orienter(complex, joined, log).run(context);
 }
 
 }  // namespace delmesh::repairing

@@ -32,14 +32,14 @@ public:
           partner_(edges.links()) {}
 
     Joined run(const Context* context) {
-        bool crowded = false;
+        EdgeList crowded;
         edges_.visit([&](std::span<const Index> edge) {
             for (const Index h : edge) partner_[h] = none;
             join_without_choice(edge);
-            crowded |= edge.size() > 2;
+            if (edge.size() > 2) crowded.add(edge);
         });
-        if (!open_.empty()) join_with_choice(context);
-        return {std::move(partner_), crowded};
+        if (open_.size() > 0) join_with_choice(context);
+        return {std::move(partner_), std::move(crowded)};
     }
 
 private:
@@ -66,8 +66,7 @@ private:
         std::sort(rest_.begin(), rest_.end());
         if (rest_.size() == 2) return join(rest_[0], rest_[1]);
         if (rest_.size() < 2) return;
-        open_.insert(open_.end(), rest_.begin(), rest_.end());
-        open_starts_.push_back(open_.size());
+        open_.add(rest_);
         log_.add_pair(Defect::non_manifold_edge, complex_.source(complex_.from(rest_[0])),
                       complex_.source(complex_.to(rest_[0])));
     }
@@ -77,17 +76,12 @@ private:
         for (Index h = 0; h < partner_.size(); ++h)
             if (partner_[h] != none && h < partner_[h]) unite(h, partner_[h]);
         std::vector<std::pair<Index, Index>> edges;  // first half-edge, edge: the order is that of the faces
-        for (Index e = 0; e < open_starts_.size(); ++e) edges.emplace_back(open_edge(e)[0], e);
+        for (Index e = 0; e < open_.size(); ++e) edges.emplace_back(open_[e][0], e);
         std::sort(edges.begin(), edges.end());
         for (std::size_t i = 0; i < edges.size(); ++i) {
             if (i % 1024 == 0) check_cancelled(context);
-            join_at(open_edge(edges[i].second));
+            join_at(open_[edges[i].second]);
         }
-    }
-
-    [[nodiscard]] std::span<const Index> open_edge(Index e) const {
-        const std::size_t start = e == 0 ? 0 : open_starts_[e - 1];
-        return {open_.data() + start, open_starts_[e] - start};
     }
 
     void unite(Index h, Index g) { sheets_.unite(h / 3, g / 3, !complex_.opposite(h, g)); }
@@ -254,8 +248,7 @@ private:
     Partners& partner_;
     Sheets sheets_{0};
     std::vector<Index> rest_;
-    std::vector<Index> open_;  ///< half-edges of edges with a choice, edge by edge
-    std::vector<std::size_t> open_starts_;
+    EdgeList open_;  ///< the half-edges with a choice
     std::vector<Spoke> spokes_;
     std::vector<int> angle_;
 };

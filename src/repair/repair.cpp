@@ -29,7 +29,7 @@ void make_manifold(Complex& complex, const RepairOptions& options, Log& log, con
         }
         Joined joined = pair_halfedges(complex, *edges, is_first ? log : later, context);
         edges.reset();
-        const std::uint64_t cut = orient(complex, joined.partners, log, context);
+        const std::uint64_t cut = orient(complex, joined, log, context);
         separate_fans(complex, joined, log);
         if (open_pillows(complex, joined.partners, log)) {
             cut_before = std::numeric_limits<std::uint64_t>::max();
