@@ -2,6 +2,7 @@
 // Which half-edges are at one edge?
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -30,29 +31,19 @@ public:
     /// tells; half-edges are in ascending order. Leaves out edges whose lower end is not `wanted`.
     template <class High, class Visitor, class Wanted>
     void visit(High&& high, Visitor&& visitor, Wanted&& wanted) const {
-        std::vector<std::uint64_t> keys;
+        Keys keys;
         std::vector<Halfedge> halfedges;
-        for (std::uint32_t v = 0; v < first_.size(); ++v) {
-            if (!wanted(v)) continue;
-            keys.clear();
-            for (Halfedge h = first_[v]; h != none; h = links_[number(h)])
-                keys.push_back(std::uint64_t{high(h)} << 32 | number(h));
-            std::sort(keys.begin(), keys.end());
-            halfedges.clear();
-            for (const std::uint64_t key : keys) halfedges.emplace_back(static_cast<std::uint32_t>(key));
-            for (std::size_t begin = 0, end = 0; begin < keys.size(); begin = end) {
-                while (end < keys.size() && keys[end] >> 32 == keys[begin] >> 32) ++end;
-                visitor(std::span<const Halfedge>(&halfedges[begin], end - begin));
-            }
+        for (std::size_t v = 0; v < first_.size(); v += at_once) {
+            gather(v, high, wanted, keys);
+            for (std::vector<std::uint64_t>& list : keys) visit_list(list, halfedges, visitor);
         }
     }
-
     template <class High, class Visitor>
     void visit(High&& high, Visitor&& visitor) const {
         visit(high, visitor, [](std::uint32_t) { return true; });
     }
 
-    /// An entry for each half-edge. In the last visit the visitor may put anything there for the half-edges it is told.
+    /// An entry for each half-edge; in the last visit, that of a half-edge which is told may be put to any use.
     [[nodiscard]] std::vector<Halfedge>& links() { return links_; }
 
 private:
@@ -63,6 +54,40 @@ private:
             return h;
         else
             return h.value();
+    }
+
+    /// Lists are followed several at a time, as each step waits for memory where faces are in no order.
+    static constexpr std::size_t at_once = 16;
+    /// For each list the higher ends and the half-edges.
+    using Keys = std::array<std::vector<std::uint64_t>, at_once>;
+
+    template <class High, class Wanted>
+    void gather(std::size_t v, High&& high, Wanted&& wanted, Keys& keys) const {
+        std::array<Halfedge, at_once> at;
+        for (std::size_t i = 0; i < at_once; ++i) {
+            keys[i].clear();
+            at[i] = v + i < first_.size() && wanted(static_cast<std::uint32_t>(v + i)) ? first_[v + i] : none;
+        }
+        for (bool any = true; any;) {
+            any = false;
+            for (std::size_t i = 0; i < at_once; ++i) {
+                if (at[i] == none) continue;
+                keys[i].push_back(std::uint64_t{high(at[i])} << 32 | number(at[i]));
+                at[i] = links_[number(at[i])];
+                any = true;
+            }
+        }
+    }
+
+    template <class Visitor>
+    static void visit_list(std::vector<std::uint64_t>& keys, std::vector<Halfedge>& halfedges, Visitor&& visitor) {
+        std::sort(keys.begin(), keys.end());
+        halfedges.clear();
+        for (const std::uint64_t key : keys) halfedges.emplace_back(static_cast<std::uint32_t>(key));
+        for (std::size_t begin = 0, end = 0; begin < keys.size(); begin = end) {
+            while (end < keys.size() && keys[end] >> 32 == keys[begin] >> 32) ++end;
+            visitor(std::span<const Halfedge>(&halfedges[begin], end - begin));
+        }
     }
 
     std::vector<Halfedge> first_;

@@ -26,14 +26,6 @@ public:
             parent_[a] = b;
     }
 
-    /// For each number that of its set: from 0 on, in the order of the roots. The object is of no more use.
-    std::vector<std::uint32_t> number_sets() {
-        std::uint32_t count = 0;
-        // In place: a parent is never larger, so it has been numbered.
-        for (std::uint32_t i = 0; i < parent_.size(); ++i) parent_[i] = parent_[i] == i ? count++ : parent_[parent_[i]];
-        return std::move(parent_);
-    }
-
 private:
     std::vector<std::uint32_t> parent_;
 };

@@ -85,5 +85,14 @@ TEST_F(Memory, LackingInSampleIsASentence) {
     expect_success_or_one_sentence("sample noisy-sphere out.ply --faces 500000");
 }
 
+TEST_F(Memory, OfRepairIsLittleMoreThanTheMesh) {
+    ASSERT_EQ(delmesh("sample noisy-surface large.ply --faces 300000").exit_code, 0);
+    const nlohmann::json small = delmesh("repair in.ply out.ply --json").json();
+    const nlohmann::json large = delmesh("repair large.ply out.ply --json").json();
+    const auto more = [&](const char* key) { return large.at(key).get<double>() - small.at(key).get<double>(); };
+    // The mesh takes 24: three corners for each face, and a point for each two.
+    EXPECT_LT(more("peak_memory_bytes") / more("faces"), 70);
+}
+
 }  // namespace
 }  // namespace delmesh
