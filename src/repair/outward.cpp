@@ -87,11 +87,12 @@ private:
         for (const Index f : faces)
             for (Index h = 3 * f; h < 3 * f + 3; ++h)
                 size = std::fmax(size, largest_component(difference(centre, complex_.point(complex_.from(h)))));
+        // Times a power of two, in two steps as it may be larger than the largest number.
         const int exponent = -std::ilogb(size);
-        const auto local = [&](Index v) {
-            const Vec3 d = difference(centre, complex_.point(v));
-            return Vec3{std::scalbn(d.x, exponent), std::scalbn(d.y, exponent), std::scalbn(d.z, exponent)};
-        };
+        const int most = std::min(exponent, std::numeric_limits<double>::max_exponent - 1);
+        const double scale = std::scalbn(1.0, most);
+        const double rest = std::scalbn(1.0, exponent - most);
+        const auto local = [&](Index v) { return difference(centre, complex_.point(v)) * scale * rest; };
         double volume = 0;
         double magnitude = 0;
         for (const Index f : faces) {
