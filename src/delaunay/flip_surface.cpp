@@ -176,17 +176,23 @@ Attempt better_way(Mesh& mesh, bool needed, std::size_t most_splits, const Remes
     return published;
 }
 
+/// How high a face may be, in the frame, to lose its long side whatever lies there; 0 where none may.
+double cap_tolerance(const Mesh& mesh, const UnitFrame& frame, const RemeshOptions& options, const Context* context) {
+    const bool may_flatten = options.mode == RemeshMode::feature && options.feature_edges.empty() &&
+                             options.flat_tolerance_rel.rule == FlatRule::automatic;
+    const double tolerance = may_flatten ? stored_tolerance(mesh, frame) : 0;
+    return tolerance > 0 && is_mostly_rounding(mesh, frame, tolerance, context) ? tolerance : 0;
+}
+
 /// Where most of what fails is needles that rounding has made, they lose their long sides first, features or not. Not
 /// done elsewhere.
 Attempt without_flat_caps(const Mesh& mesh, std::size_t most_splits, const RemeshOptions& options,
                           const Context* context, const RemeshReport& so_far) {
-    const bool may_flatten = options.mode == RemeshMode::feature && options.feature_edges.empty() &&
-                             options.flat_tolerance_rel.rule == FlatRule::automatic;
     const UnitFrame frame = unit_frame(mesh);
-    const double tolerance = may_flatten ? stored_tolerance(mesh, frame) : 0;
+    const double tolerance = cap_tolerance(mesh, frame, options, context);
     Attempt result{{}, so_far};
     result.report.stop = StopReason::unresolved;
-    if (!(tolerance > 0) || !is_mostly_rounding(mesh, frame, tolerance, context)) return result;
+    if (!(tolerance > 0)) return result;
     Mesh flattened = mesh;
     const FlatCaps caps = flip_flat_caps(flattened, frame, tolerance, context);
     if (caps.flips == 0) return result;
@@ -228,6 +234,19 @@ Attempt best_way(Mesh& mesh, const RemeshOptions& options, const Context* contex
 }
 
 }  // namespace
+
+std::size_t flip_alone(Mesh& mesh, const RemeshOptions& options, const Context* context) {
+    RemeshOptions flips = options;
+    flips.finish = FlipFinish::literal;
+    RemeshReport report;
+    report.flips = remove_caps(mesh, context);
+    const UnitFrame frame = unit_frame(mesh);
+    const double tolerance = cap_tolerance(mesh, frame, options, context);
+    if (tolerance > 0) report.flips += flip_flat_caps(mesh, frame, tolerance, context).flips;
+    MarkedMesh flipping(mesh, marks_for(mesh, options, context), {});
+    flip_edges(flipping, false, flips, context, report);
+    return report.flips;
+}
 
 void flip_surface(Mesh& mesh, const RemeshOptions& options, const Context* context, RemeshReport& report) {
     if (options.placement == SplitPlacement::shells)

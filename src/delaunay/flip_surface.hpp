@@ -13,4 +13,9 @@ namespace delmesh {
 /// as that lose their longest side to a flip before it (FlatRule::automatic; not if features are listed).
 void flip_surface(Mesh& mesh, const RemeshOptions& options, const Context* context, RemeshReport& report);
 
+/// What of that can be had by flips alone, for a mesh that is going to change anyhow: faces that only rounding has made
+/// go first, under the conditions above; afterwards features and what can not be flipped are not Delaunay. Needs hardly
+/// more room than the mesh. Throws as `remove_caps`. Returns the number of flips.
+std::size_t flip_alone(Mesh& mesh, const RemeshOptions& options, const Context* context);
+
 }  // namespace delmesh

@@ -63,11 +63,14 @@ void Decimator::enqueue_all() {
     queue_.heapify();
 }
 
-void Decimator::continue_from(std::unique_ptr<Sweeper> sweeper) {
+void Decimator::continue_from(std::unique_ptr<Sweeper> sweeper, std::vector<VertexId> merged_before) {
     for (std::size_t v = 0; v < mesh_.vertex_count(); ++v)
         weights_.set_history(VertexId(v), sweeper->weights().history(VertexId(v)));
     worst_error_ = sweeper->worst_error();
-    const std::vector<VertexId> now = sweeper->merged_into();
+    std::vector<VertexId> now = sweeper->merged_into();
+    for (VertexId& v : merged_before)
+        if (v.valid()) v = now[v.index()];
+    if (!merged_before.empty()) now.swap(merged_before);
     sweeper.reset();  // the samples need its room
     samples_->reattach(mesh_, scale_, now);
 }

@@ -47,8 +47,10 @@ public:
     void follow_samples(std::size_t count, std::size_t most) { samples_.emplace(mesh_, count, scale_, most); }
     /// From now on these are followed.
     void follow_samples(SurfaceSamples samples) { samples_ = std::move(samples); }
-    /// The sweeper has gone the first part of the way. Requires `follow_samples`, with those from before.
-    void continue_from(std::unique_ptr<Sweeper> sweeper);
+    /// The sweeper has gone the first part of the way. Requires `follow_samples`, with those from before. Where others
+    /// went before it, `merged_before` says into which of the vertices that it began with those of the samples were
+    /// merged.
+    void continue_from(std::unique_ptr<Sweeper> sweeper, std::vector<VertexId> merged_before);
     /// On the last part of the way to so many vertices, collapses must not leave a sample far from the surface, nor the
     /// surface far from the samples: such edges wait until the mean error has grown or nothing else is left.
     void guard_for(std::size_t vertices);

@@ -1,5 +1,7 @@
 #include "delmesh/simplify/simplify.hpp"
 
+#include "delaunay/flip_surface.hpp"
+#include "delaunay/vertex_limit.hpp"
 #include "delmesh/base/error.hpp"
 #include "delmesh/measure/certificate.hpp"
 #include "delmesh/measure/statistics.hpp"
@@ -10,6 +12,7 @@
 #include "simplify/mend.hpp"
 #include "simplify/start.hpp"
 #include "simplify/sweeper.hpp"
+#include "simplify/thinner.hpp"
 
 #include <fmt/format.h>
 
@@ -26,6 +29,12 @@ constexpr double least_far = 256;
 
 /// From so many vertices on at the finest level, time counts for more, and chance for less.
 constexpr std::size_t many = 20'000;
+
+/// From so many vertices on what is kept beside a mesh is as little as can be.
+constexpr std::size_t large = 200'000;
+/// It is thinned to so many times the vertices asked for, and gets no more points than these or a quarter then.
+constexpr std::size_t thin_from = 3;
+constexpr std::size_t few_points = 20'000;
 
 /// Around a vertex with more faces than these, each collapse would look at the samples of all of them.
 constexpr std::uint32_t hub = 1000;
@@ -69,9 +78,8 @@ std::vector<std::size_t> find_targets(const SimplifyOptions& options, const Mesh
 }
 
 /// How many samples of the original are followed on the way to so many vertices.
-std::size_t samples_for(std::size_t vertices) {
-    const Tuning tuning;
-    return static_cast<std::size_t>(std::min(1e9, tuning.samples + tuning.density * static_cast<double>(vertices)));
+std::size_t samples_for(std::size_t vertices, double density = Tuning().density) {
+    return static_cast<std::size_t>(std::min(1e9, Tuning().samples + density * static_cast<double>(vertices)));
 }
 
 Tuning tuning_for(const SimplifyOptions& options) {
@@ -269,24 +277,71 @@ void reach(Decimator& decimator, std::size_t target, const Way& way, Numbering& 
     report.moves += decimator.refit(tuning_at_level(target), context);
 }
 
+/// What a large mesh was before it was thinned.
+struct Before {
+    SampleSource samples;
+    std::vector<VertexId> merged_into;
+};
+
+/// Where so much is to go that the care of the sweeps would be lost on it, and would take more room than the mesh.
+bool may_thin(const Mesh& mesh, const Way& way) {
+    const std::size_t vertices = mesh.vertex_count();
+    return way.polishes && vertices >= large && thin_from * way.targets.front() <= vertices - vertices / 4;
+}
+
+/// Thins the mesh; what is not Delaunay then was not before.
+Before thin(Mesh& mesh, const Way& way, Precision precision, bool is_delaunay, SimplifyReport& report,
+            const Context* context) {
+    const std::size_t target = way.targets.front();
+    Tuning tuning = way.tuning;
+    tuning.constrained = is_delaunay;
+    tuning.mending = is_delaunay ? Mending::off : Mending::no_more;
+    const std::size_t samples = samples_for(target, target < many ? tuning.density : tuning.density_of_large);
+    drop_isolated(mesh);
+    Before before{SampleSource(mesh, mesh.vertex_count(), local_scale(mesh), samples), {}};
+    Thinner thinner(mesh, tuning, precision);
+    thinner.run(thin_from * target, context);
+    before.merged_into = thinner.merged_into();
+    report.collapses += thinner.collapses();
+    return before;
+}
+
+/// Makes the mesh Delaunay. A large one is thinned before: most points would be for vertices that vanish anyhow.
+bool start(Mesh& mesh, const Way& way, const SimplifyOptions& options, std::optional<Before>& before,
+           SimplifyReport& report, const Context* context) {
+    RemeshOptions remesh = start_options(mesh, options);
+    if (may_thin(mesh, way) && remesh.feature_edges.empty()) {
+        const bool is_delaunay = certify(mesh, context).certified;
+        if (!is_delaunay && remesh.mode != RemeshMode::preserve) flip_alone(mesh, remesh, context);
+        before = thin(mesh, way, remesh.precision, is_delaunay, report, context);
+        remesh = with_at_most(remesh, mesh.vertex_count() + std::max(few_points, mesh.vertex_count() / 4));
+    }
+    const StartLimits limits{.vertices = way.targets.front(), .may_thin = way.shakes};
+    if (!make_start_delaunay(mesh, remesh, way.tuning, limits, report, context)) return false;
+    if (report.thinned_to > 0) before.reset();  // the vertices are not what they were
+    return true;
+}
+
 /// A decimator for a mesh that is Delaunay, which has gone the first part of the way.
 void begin(Decimator& decimator, std::optional<SurfaceSamples> samples, std::unique_ptr<Sweeper> sweeper,
-           SimplifyReport& report, const Context* context) {
+           std::vector<VertexId> merged_before, SimplifyReport& report, const Context* context) {
     if (samples) decimator.follow_samples(std::move(*samples));
     if (!sweeper) return;
-    report.collapses = sweeper->collapses();
-    decimator.continue_from(std::move(sweeper));
+    report.collapses += sweeper->collapses();
+    decimator.continue_from(std::move(sweeper), std::move(merged_before));
     report.moves = decimator.refit({.rounds = 1}, context);
 }
 
 /// From level to level. Nothing of what that takes is left at the end.
-void go_down(Mesh& mesh, const Way& way, const SimplifyOptions& options, Recorder* recorder, Numbering& numbering,
-             SimplifyReport& report, const Context* context) {
+void go_down(Mesh& mesh, std::optional<Before> before, const Way& way, const SimplifyOptions& options,
+             Recorder* recorder, Numbering& numbering, SimplifyReport& report, const Context* context) {
     const std::size_t target = way.targets.front();
     // All steps of a progressive mesh are levels, so they are made with all care.
-    const bool sweeps = way.polishes && mesh.vertex_count() > sweep_until(target, way.tuning);
+    const bool sweeps = way.polishes && (before || mesh.vertex_count() > sweep_until(target, way.tuning));
     std::optional<SurfaceSamples> samples;
-    if (way.refits) {
+    if (before && sweeps) {
+        samples.emplace(std::move(before->samples));
+    } else if (way.refits) {
         const std::size_t count = std::min(report.input_vertices, mesh.vertex_count());
         const std::size_t most = samples_for(target);
         samples = sweeps ? SurfaceSamples(SampleSource(mesh, count, local_scale(mesh), most))
@@ -295,7 +350,8 @@ void go_down(Mesh& mesh, const Way& way, const SimplifyOptions& options, Recorde
     std::unique_ptr<Sweeper> sweeper;
     if (sweeps) sweeper = sweep_first(mesh, way.tuning, options, target, numbering, context);
     Decimator decimator(mesh, way.tuning, way.limits, recorder);
-    begin(decimator, std::move(samples), std::move(sweeper), report, context);
+    begin(decimator, std::move(samples), std::move(sweeper),
+          before ? std::move(before->merged_into) : std::vector<VertexId>(), report, context);
     for (const std::size_t level : way.targets) {
         reach(decimator, level, way, numbering, report, context);
         report.stop = report.levels.back().stop;
@@ -315,23 +371,26 @@ SimplifyReport run(Mesh& mesh, const SimplifyOptions& options, ProgressiveMesh* 
     const bool shakes = options.max_quadric_error_rel == 0 && options.placement == Placement::best;
     const std::vector<std::size_t> targets = find_targets(options, mesh);
     const Tuning tuning = tuning_for(options);
-    const StartLimits limits{.vertices = targets.front(), .may_thin = shakes && record == nullptr};
-    if (!make_start_delaunay(mesh, options, tuning, limits, report, context)) {
+    Way way{.targets = targets,
+            .tuning = tuning,
+            .limits = {options.max_quadric_error_rel * diagonal, options.remesh.precision},
+            .records = record != nullptr,
+            .shakes = shakes && record == nullptr};
+    const auto look_for_hubs = [&] {
+        way.refits = options.refit && shakes && !has_hub(mesh);
+        way.polishes = way.refits && record == nullptr;
+    };
+    look_for_hubs();
+    std::optional<Before> before;
+    if (!start(mesh, way, options, before, report, context)) {
         report.stop = is_cancelled(context) ? SimplifyStop::cancelled : SimplifyStop::not_delaunay;
         if (record != nullptr) *record = {mesh, {}};
         return report;
     }
+    look_for_hubs();
     report.least_vertices = least_vertices(mesh);
-    const bool refit = options.refit && shakes && !has_hub(mesh);
     Numbering numbering(mesh);
-    const Way way{.targets = targets,
-                  .tuning = tuning,
-                  .limits = {options.max_quadric_error_rel * diagonal, options.remesh.precision},
-                  .records = record != nullptr,
-                  .shakes = shakes && record == nullptr,
-                  .refits = refit,
-                  .polishes = refit && record == nullptr};
-    go_down(mesh, way, options, record != nullptr ? &recorder : nullptr, numbering, report, context);
+    go_down(mesh, std::move(before), way, options, record != nullptr ? &recorder : nullptr, numbering, report, context);
     drop_isolated(mesh);
     CompactMap map = numbering.in_order_of_names(mesh);
     numbering.renumber(mesh, map);

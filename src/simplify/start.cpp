@@ -107,12 +107,16 @@ void thin_out(Mesh& mesh, Tuning tuning, Precision precision, std::size_t vertic
 
 }  // namespace
 
-bool make_start_delaunay(Mesh& mesh, const SimplifyOptions& options, const Tuning& tuning, const StartLimits& limits,
-                         SimplifyReport& report, const Context* context) {
-    if (certify(mesh, context).certified) return true;
+RemeshOptions start_options(const Mesh& mesh, const SimplifyOptions& options) {
     RemeshOptions how = options.remesh;
     if (options.wider_angle_on_noise && how.mode == RemeshMode::feature && is_large_and_noisy(mesh))
         how.feature_angle_deg = std::min(180.0, 2 * how.feature_angle_deg);
+    return how;
+}
+
+bool make_start_delaunay(Mesh& mesh, RemeshOptions how, const Tuning& tuning, const StartLimits& limits,
+                         SimplifyReport& report, const Context* context) {
+    if (certify(mesh, context).certified) return true;
     const auto take = [&](Remeshed&& result, double angle_deg, std::size_t thinned_to) {
         mesh = std::move(result.mesh);
         report.remesh = std::move(result.report);

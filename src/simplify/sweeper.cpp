@@ -2,8 +2,7 @@
 
 #include "delmesh/mesh/edits.hpp"
 #include "simplify/edge_cost.hpp"
-#include "simplify/frame.hpp"
-#include "simplify/triangle_point.hpp"
+#include "simplify/sweep_tools.hpp"
 #include "simplify/walk.hpp"
 
 #include <algorithm>
@@ -13,16 +12,8 @@
 namespace delmesh {
 namespace {
 
-/// So many keys are enough to tell how they are distributed.
-constexpr std::size_t keys_looked_at = 100'000;
-/// Half-edges between two looks at the context.
-constexpr std::size_t report_interval = 1 << 16;
 /// After so many sweeps that hardly collapsed anything, others must go on.
 constexpr int poor_in_a_row = 3;
-/// A squared distance, local unit, that may be all rounding.
-constexpr double rounding2 = 1e-14;
-/// Gaps are closed when less than this part of the vertices is left.
-constexpr double sparse = 0.6;
 
 /// As `move_down`, for three items a face.
 template <class Item>
@@ -36,31 +27,16 @@ void move_sides_down(std::vector<Item>& items, const std::vector<FaceId>& map) {
     items.shrink_to_fit();
 }
 
-Tuning without_search(Tuning tuning) {
-    tuning.bisections = 0;
-    tuning.sqp_steps = 0;
-    return tuning;
-}
-
 const Mesh& reordered(Mesh& mesh, Numbering& numbering, double scale) {
     numbering.renumber(mesh, in_order_of_place(mesh, scale));
     return mesh;
-}
-
-/// The squared distance of p from the star with its centre at w, or anything that is not above `enough`.
-double find_distance2(const Star& star, const Vec3& w, const Vec3& p, double enough) {
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < star.face_count() && least > enough; ++i)
-        least =
-            std::min(least, nearest_on_triangle(p, w, star.ring[i].point, star.ring[star.after(i)].point).distance2);
-    return least;
 }
 
 }  // namespace
 
 Sweeper::Sweeper(Mesh& mesh, const Tuning& tuning, Precision precision, Numbering& numbering)
     : mesh_(mesh),
-      tuning_(without_search(tuning)),
+      tuning_(sweeps::without_search(tuning)),
       scale_(local_scale(mesh)),
       precision_(precision),
       numbering_(numbering),
@@ -88,9 +64,9 @@ void Sweeper::run(std::size_t vertices, const Context* context) {
         }
         poor = 0;
         const double usual2 = drift_sum_ / static_cast<double>(before - vertices_);
-        drift_limit2_ = std::max(tuning_.sweep_reach * tuning_.sweep_reach * usual2, rounding2);
+        drift_limit2_ = std::max(tuning_.sweep_reach * tuning_.sweep_reach * usual2, sweeps::rounding2);
         drift_sum_ = 0;
-        if (static_cast<double>(vertices_) < sparse * static_cast<double>(mesh_.vertex_count())) tidy();
+        if (static_cast<double>(vertices_) < sweeps::sparse * static_cast<double>(mesh_.vertex_count())) tidy();
         report_progress(context, "simplify",
                         static_cast<double>(start - vertices_) / static_cast<double>(start - vertices));
     }
@@ -100,22 +76,18 @@ void Sweeper::run(std::size_t vertices, const Context* context) {
 /// A quantile of the costs of the edges that do not wait.
 float Sweeper::choose_limit() {
     some_keys_.clear();
-    const std::size_t stride = 1 + mesh_.halfedge_count() / keys_looked_at;
+    const std::size_t stride = 1 + mesh_.halfedge_count() / sweeps::keys_looked_at;
     for (std::size_t i = 0; i < mesh_.halfedge_count(); i += stride) {
         const HalfedgeId h(i);
         if (mesh_.origin(h).valid() && mesh_.names_edge(h) && !waits_[i]) some_keys_.push_back(key_of(h));
     }
-    if (some_keys_.empty()) return 0;
-    const auto at =
-        some_keys_.begin() + static_cast<std::ptrdiff_t>(tuning_.sweep_part * static_cast<double>(some_keys_.size()));
-    std::nth_element(some_keys_.begin(), at, some_keys_.end());
-    return *at;
+    return sweeps::quantile(some_keys_, tuning_.sweep_part);
 }
 
 /// At most one edge is merged into each vertex, so that no place gets ahead of the others.
 void Sweeper::sweep(std::size_t vertices, float limit, const Context* context) {
     for (std::size_t i = 0; i < mesh_.halfedge_count() && vertices_ > vertices; ++i) {
-        if (i % report_interval == 0 && is_cancelled(context)) return;
+        if (i % sweeps::report_interval == 0 && is_cancelled(context)) return;
         const HalfedgeId h(i);
         const VertexId u = mesh_.origin(h);
         if (!u.valid() || waits_[i] || merged_[u.index()] || !mesh_.names_edge(h)) continue;
@@ -171,7 +143,7 @@ void Sweeper::visit(HalfedgeId h, float limit) {
 Sweeper::Drift Sweeper::find_drift(const Vec3& w) const {
     Drift worst;
     const auto look_at = [&](const Vec3& p) {
-        const double distance2 = find_distance2(star_, w, star_.frame.to_local(p), worst.distance2);
+        const double distance2 = sweeps::find_distance2(star_, w, star_.frame.to_local(p), worst.distance2);
         if (distance2 > worst.distance2) worst = {distance2, p};
     };
     for (const VertexId v : {star_.u, star_.v}) {
@@ -244,16 +216,7 @@ double Sweeper::worst_error() const {
 }
 
 std::vector<VertexId> Sweeper::merged_into() const {
-    const std::vector<VertexId> ids = numbering_.ids();
-    std::vector<VertexId> last = parent_;
-    for (std::size_t v = 0; v < last.size(); ++v) {
-        // Halves the way for all that come here later.
-        VertexId at(v);
-        while (last[at.index()] != at) at = last[at.index()] = last[last[at.index()].index()];
-        last[v] = at;
-    }
-    for (VertexId& v : last) v = ids[v.index()];
-    return last;
+    return sweeps::merged_into(parent_, numbering_.ids());
 }
 
 }  // namespace delmesh

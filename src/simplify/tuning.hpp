@@ -22,11 +22,12 @@ struct Tuning {
     double length_cost = 1e-9;  ///< breaks ties of flat regions in favour of short edges
     int bisections = 4;
     int sqp_steps = 1;
-    double slack = 1.5;       ///< an edge is collapsed at once if it costs at most this times the next key
-    double samples = 30000;   ///< so many samples of the original are followed ...
-    double density = 12;      ///< ... and so many more for each vertex of the finest level, as far as there are
-    double reach = 4.5;       ///< no sample gets farther away than this many times the root of the mean square
-    double guard = 3;         ///< ... once fewer than this many times the vertices asked for are left
+    double slack = 1.5;           ///< an edge is collapsed at once if it costs at most this times the next key
+    double samples = 30000;       ///< so many samples of the original are followed ...
+    double density = 12;          ///< ... and so many more for each vertex of the finest level, as far as there are
+    double density_of_large = 8;  ///< ... or that many, where a large mesh is thinned to a level of many vertices
+    double reach = 4.5;           ///< no sample gets farther away than this many times the root of the mean square
+    double guard = 3;             ///< ... once fewer than this many times the vertices asked for are left
     double sweep_until = 2;   ///< while more than so many times the vertices asked for are left, edges go in sweeps ...
     double sweep_part = 0.4;  ///< ... each of which tries the cheapest so many of those that may be free
     double sweep_reach = 2.5;  ///< ... and moves no end farther off than this many times the usual (root mean square)

@@ -51,9 +51,9 @@ VertexWeights::VertexWeights(const Mesh& mesh, double scale, const Tuning& tunin
     : mesh_(mesh),
       scale_(scale),
       tuning_(tuning),
-      at_(mesh.vertex_count(), none),
-      rest_at_(mesh.vertex_count(), none) {
-    if (kept == Kept::changed)
+      at_(kept == Kept::none ? 0 : mesh.vertex_count(), none),
+      rest_at_(at_) {
+    if (kept != Kept::all)
         recent_.resize(recent_count);
     else
         for (std::size_t v = 0; v < mesh.vertex_count(); ++v) keep(VertexId(v), computed(VertexId(v)));
@@ -72,7 +72,7 @@ void VertexWeights::keep(VertexId v, const Planes& planes) {
 }
 
 const VertexWeights::Planes& VertexWeights::current(VertexId v) const {
-    if (const std::uint32_t at = at_[v.index()]; at != none) return current_[at];
+    if (const std::uint32_t at = at_.empty() ? none : at_[v.index()]; at != none) return current_[at];
     Recent& recent = recent_[v.index() % recent_count];
     if (recent.vertex != v) recent = {v, computed(v)};
     return recent.planes;
@@ -84,6 +84,16 @@ void VertexWeights::prepare(const Star& star) {
     };
     keep_one(star.u);
     for (const Star::Corner& corner : star.ring) keep_one(corner.vertex);
+}
+
+void VertexWeights::changed(const Star& star) {
+    const auto forget_one = [this](VertexId v) {
+        Recent& recent = recent_[v.index() % recent_count];
+        if (recent.vertex == v) recent.vertex = VertexId();
+    };
+    forget_one(star.u);
+    forget_one(star.v);
+    for (const Star::Corner& corner : star.ring) forget_one(corner.vertex);
 }
 
 Quadric VertexWeights::history(VertexId v) const {
@@ -139,6 +149,7 @@ void VertexWeights::renumber(const std::vector<VertexId>& ids) {
 void VertexWeights::close_gaps(const std::vector<VertexId>& ids) {
     for (Recent& recent : recent_)
         if (recent.vertex.valid()) recent.vertex = VertexId();
+    if (at_.empty()) return;
     move_down(at_, ids);
     move_down(rest_at_, ids);
 }

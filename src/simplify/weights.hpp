@@ -22,11 +22,14 @@ public:
     enum class Kept {
         all,
         changed,  ///< of vertices around which something has changed: `prepare` must be told before it does
+        none,     ///< `changed` must be told after it did; there is no history
     };
     VertexWeights(const Mesh& mesh, double scale, const Tuning& tuning, Kept kept = Kept::all);
 
     /// The edge of the star is about to be collapsed.
     void prepare(const Star& star);
+    /// Where none are kept: the edge of the star has been collapsed.
+    void changed(const Star& star);
 
     /// The planes to judge an edge by: those at its ends, with the place of u as the origin; `to_v` is that of v.
     [[nodiscard]] Quadric of_edge(VertexId u, VertexId v, const Vec3& to_v) const;

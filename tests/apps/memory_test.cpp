@@ -77,6 +77,16 @@ TEST_F(Memory, LackingInRemeshIsASentence) {
     expect_success_or_one_sentence("remesh in.ply out.ply --mode feature --placement shells --threads 8");
 }
 
+/// What is allowed for each face that is left is less than a face of the input takes.
+TEST_F(Memory, SimplifyOfALargeMeshNeedsLittleBesideIt) {
+    ASSERT_EQ(delmesh("sample noisy-sphere large.ply --faces 450000 --precision float").exit_code, 0);
+    const test::Ran ran = delmesh("simplify large.ply out.ply --ratio 0.1 --json");
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    const nlohmann::json json = ran.json();
+    EXPECT_EQ(json["output"]["delaunay"]["certified"], true);
+    EXPECT_LT(json["peak_memory_bytes"].get<double>(), 50e6 + 200 * json["output"]["mesh"]["faces"].get<double>());
+}
+
 TEST_F(Memory, LackingInSimplifyIsASentence) {
     expect_success_or_one_sentence("simplify in.obj out.ply --ratio 0.5");
 }

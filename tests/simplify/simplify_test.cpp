@@ -2,6 +2,7 @@
 
 #include "delmesh/base/error.hpp"
 #include "delmesh/measure/certificate.hpp"
+#include "delmesh/measure/distance.hpp"
 #include "delmesh/measure/statistics.hpp"
 #include "delmesh/mesh/edits.hpp"
 #include "delmesh/mesh/shapes.hpp"
@@ -169,6 +170,35 @@ TEST(Simplify, NothingIsThinnedOutNorFlippedWiderWithoutNeed) {
     ASSERT_TRUE(report.remesh.has_value());
     EXPECT_EQ(report.thinned_to, 0u);
     EXPECT_EQ(report.remesh_angle_deg, SimplifyOptions::default_remesh().feature_angle_deg);
+}
+
+/// Points on a large mesh would mostly be for vertices that vanish, and with all that is kept beside it, it would need
+/// three times its room.
+TEST(Simplify, ALargeMeshIsThinnedFirst) {
+    const Mesh fine = sample("noisy-sphere", 410'000);
+    ASSERT_GE(fine.vertex_count(), 200'000u);
+    const std::size_t faults = certify(fine).non_delaunay_edges;
+    Mesh mesh = fine;
+    const SimplifyReport report = simplify(mesh, to_vertices(1000));
+    EXPECT_EQ(report.stop, SimplifyStop::done);
+    EXPECT_EQ(mesh.vertex_count(), 1000u);
+    EXPECT_EQ(report.collapses, fine.vertex_count() + report.remesh->splits - 1000);
+    EXPECT_LT(report.remesh->flips + report.remesh->splits, faults / 20) << "of a tenth of the vertices at most";
+    EXPECT_EQ(report.thinned_to, 0u);
+    expect_sound(mesh, test::examine(to_soup(fine)), "large");
+    EXPECT_LT(measure_distance(fine, mesh, {.samples_per_face = 0.1}).mean.percent, 0.2);
+}
+
+TEST(Simplify, ALargeDelaunayMeshStaysSo) {
+    const Mesh fine = sample("icosphere", 500'000);
+    ASSERT_GE(fine.vertex_count(), 200'000u);
+    ASSERT_TRUE(certify(fine).certified);
+    Mesh mesh = fine;
+    const SimplifyReport report = simplify(mesh, to_vertices(300));
+    EXPECT_FALSE(report.remesh.has_value());
+    EXPECT_EQ(report.collapses, fine.vertex_count() - 300);
+    expect_sound(mesh, test::examine(to_soup(fine)), "large and Delaunay");
+    EXPECT_LT(measure_distance(fine, mesh, {.samples_per_face = 0.1}).mean.percent, 0.2);
 }
 
 TEST(Simplify, AClosedSphereGoesDownToATetrahedron) {

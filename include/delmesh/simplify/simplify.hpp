@@ -49,7 +49,8 @@ struct LevelReport {
     std::size_t vertices = 0;  ///< vertices reached
     SimplifyStop stop = SimplifyStop::done;
     /// The largest distance so far between a merged vertex and the planes of the original faces it stands for (root of
-    /// the area-weighted mean square), in units of the coordinates. Not a Hausdorff distance.
+    /// the area-weighted mean square), in units of the coordinates. Not a Hausdorff distance. Where a large mesh was
+    /// thinned first, the faces are those that were left then.
     double quadric_error = 0;
     /// The edges that could not be collapsed when they were last tried, by what blocked them (index: Obstacle).
     std::array<std::size_t, obstacle_count> blocked{};
@@ -142,8 +143,8 @@ struct SimplifyReport {
 /// ids are those of the coarsest level: what survives keeps its order.
 ///
 /// An input that is not Delaunay is remeshed first with `options.remesh`, and with a wider feature angle where that
-/// stops short; ratios and targets refer to the number of
-/// vertices before that. Not guaranteed: a bound on the distance to the original, and that the surface does not
+/// stops short; one of 200,000 vertices or more is thinned before that, by collapses that leave no more edges that are
+/// not Delaunay than there were. Ratios and targets refer to the number of vertices before all that. Not guaranteed: a bound on the distance to the original, and that the surface does not
 /// intersect itself. After cancelling the mesh is valid and Delaunay (once it was), somewhere between two levels.
 ///
 /// Throws `Error` (bad_argument; for remeshing see `make_delaunay`). Cost: O(n log n) for n vertices in practice.
