@@ -105,6 +105,9 @@ std::string why_it_stopped(const RemeshArguments& arguments, const Outcome& outc
     const std::string at = outcome.witness.empty() ? std::string()
                                                    : fmt::format(" at the edge between vertices {} and {}",
                                                                  outcome.witness[0], outcome.witness[1]);
+    const std::string_view precision = choices(Precision{})[static_cast<std::size_t>(arguments.options.precision)];
+    const std::string_view try_doubles =
+        arguments.options.precision == Precision::float32 ? "; try a format that stores doubles" : "";
     switch (outcome.report.stop) {
         case StopReason::max_vertices:
             return fmt::format("stopped at {} vertices (--max-vertices){}; {} edges are not Delaunay yet{}",
@@ -113,11 +116,12 @@ std::string why_it_stopped(const RemeshArguments& arguments, const Outcome& outc
                                            outcome.after.certificate.obtuse_boundary_edges),
                                what_to_try(arguments.options, outcome.report));
         case StopReason::unresolved:
+            if (outcome.report.endless)
+                return fmt::format("stopped{}: rounding to {} precision brings it back whenever it is split{}{}", at,
+                                   precision, try_doubles, what_to_try(arguments.options, outcome.report));
             return fmt::format(
-                "stopped{}: {} precision can not hold a point between its ends that is needed{}{}", at,
-                choices(Precision{})[static_cast<std::size_t>(arguments.options.precision)],
-                arguments.options.precision == Precision::float32 ? "; try a format that stores doubles" : "",
-                what_to_try(arguments.options, outcome.report));
+                "stopped{}: {} precision can not hold a point between its ends that is needed{}{}", at, precision,
+                try_doubles, what_to_try(arguments.options, outcome.report));
         case StopReason::cancelled:
             return "interrupted";
         case StopReason::done:

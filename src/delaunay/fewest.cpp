@@ -45,7 +45,7 @@ public:
         // Needles make shells explode; then what is found without them is all that is needed.
         const std::size_t few = few_splits(from_.start.bad.size(), has_other_way_);
         TrialPointer best = try_shells(from_, few);
-        if (best->report.stop == StopReason::max_vertices && best->report.splits >= few) {
+        if (best->report.endless || (best->report.stop == StopReason::max_vertices && best->report.splits >= few)) {
             most_splits_ = few;
             TrialPointer without = better_of(std::move(best), few);
             most_splits_ = unlimited_splits;

@@ -91,6 +91,7 @@ void add(RemeshReport& report, const RemeshReport& rest, const std::vector<Split
         }));
     report.stop = rest.stop;
     report.witness = rest.witness;
+    report.endless = rest.endless;
     report.flips += rest.flips;
     report.splits += rest.splits;
     report.splits_boundary += rest.splits_boundary;
@@ -140,6 +141,7 @@ void flip_surface(Mesh& mesh, Way way, const RemeshOptions& options, const Conte
 struct Attempt {
     Mesh mesh;
     RemeshReport report;
+    bool wants_more_splits = false;
 
     [[nodiscard]] bool done() const { return report.stop == StopReason::done; }
     [[nodiscard]] bool cancelled() const { return report.stop == StopReason::cancelled; }
@@ -161,9 +163,12 @@ Attempt better_way(Mesh& mesh, bool needed, std::size_t most_splits, const Remes
     Attempt published = attempt(mesh, Way::published, most_splits, options, context, so_far, caps);
     if (published.cancelled() || (published.done() && published.report.splits == 0)) return published;
     if (!published.done()) {
+        const StopReason stop = published.report.stop;
         published = {};
-        if (needed) return attempt(mesh, Way::patient, most_splits, options, context, so_far, caps);
-        return attempt(std::move(mesh), Way::patient, most_splits, options, context, so_far, caps);
+        Attempt patient =
+            attempt(needed ? mesh : std::move(mesh), Way::patient, most_splits, options, context, so_far, caps);
+        patient.wants_more_splits = (patient.report.endless ? stop : patient.report.stop) == StopReason::max_vertices;
+        return patient;
     }
     // One of the two is the result, so the input is needed no more, and a copy would be one mesh too many.
     RemeshReport patient = so_far;
@@ -228,7 +233,7 @@ Attempt best_way(Mesh& mesh, const RemeshOptions& options, const Context* contex
     if (best.done() || best.cancelled()) return best;
     if (flattened.done()) return flattened;
     const bool limited = options.max_vertices != 0 && options.max_vertices <= mesh.vertex_count() + few;
-    if (best.report.stop != StopReason::max_vertices || limited) return best;
+    if (!best.wants_more_splits || limited) return best;
     best = {};
     return better_way(mesh, false, std::numeric_limits<std::uint32_t>::max(), options, context, so_far);
 }

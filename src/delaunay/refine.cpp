@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdint>
+#include <unordered_map>
 #include <utility>
 
 namespace delmesh {
@@ -16,6 +18,8 @@ namespace {
 
 /// What parts sheets may make more of them want the same edge.
 constexpr std::size_t most_partings_per_edge = 8;
+/// An edge in a plane that is split so often comes back for ever.
+constexpr int most_splits_of_planar = 32;
 /// Edges whose opposite angles a split may change.
 constexpr std::size_t touched_per_split = 8;
 
@@ -151,9 +155,20 @@ private:
     void treat(HalfedgeId h) {
         if (++treated_ % 1024 == 0) take_breath(h);
         if (splitter_.stopped() || !is_non_delaunay(mesh_, h)) return;
+        if (may_flip(h)) return flip_edge(h);
+        if (marked_.is_planar(h) && comes_back_endlessly(h)) return;
         if (marked_.is_planar(h) && !marked_.is_flippable(h)) return splitter_.halve(h);
-        if (marked_.is_planar(h) && marked_.keeps_unfolded(h)) return flip_edge(h);
         splitter_.split_at_shell(h);
+    }
+
+    /// Where rounding folds faces that should lie in a plane, flips may restore an edge whenever it is split, at one
+    /// place, again and again.
+    bool comes_back_endlessly(HalfedgeId h) {
+        const auto [a, b] = std::minmax({mesh_.origin(h).value(), mesh_.target(h).value()});
+        if (++planar_splits_[(std::uint64_t{a} << 32) | b] <= most_splits_of_planar) return false;
+        report_.endless = true;
+        splitter_.stop(StopReason::unresolved, h);
+        return true;
     }
 
     void take_breath(HalfedgeId h) {
@@ -177,6 +192,7 @@ private:
     std::vector<HalfedgeId> suspects_;  ///< worked off last in, first out
     std::vector<HalfedgeId> splits_;    ///< worked off first in, first out, from next_split_
     std::size_t next_split_ = 0;
+    std::unordered_map<std::uint64_t, std::uint8_t> planar_splits_;  ///< by the ends of the edge
     std::size_t treated_ = 0;
     double furthest_ = 0;
     Splitter splitter_;

@@ -182,6 +182,8 @@ struct RemeshReport {
     double max_deviation = 0;
     /// The edge that stopped the run, where one did.
     std::optional<EdgeId> witness;
+    /// The run was stopped (`unresolved`) as that edge, which lies in a plane, came back whenever it was split.
+    bool endless = false;
     Provenance provenance;
 };
 
