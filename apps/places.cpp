@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace delmesh::app {
 
 PlacesReport tell_places_apart(PolygonSoup& soup) {
@@ -14,10 +16,11 @@ PlacesReport tell_places_apart(PolygonSoup& soup) {
     try {
         (void)Mesh(welded);
     } catch (const Error&) {
-        return {0, part_coincident(soup)};
+        std::vector<Vec3> before = soup.points;
+        return {0, part_coincident(soup), std::move(before)};
     }
     soup = std::move(welded);
-    return {joined, 0};
+    return {joined, 0, {}};
 }
 
 void check_places(const std::string& path, const Mesh& mesh) {

@@ -5,12 +5,15 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace delmesh::app {
 
 struct PlacesReport {
     std::size_t welded = 0;  ///< vertices joined with another one at their place
     std::size_t parted = 0;  ///< vertices moved by the last bit instead, as joining would not give a mesh
+    /// All points before that, if any was moved.
+    std::vector<Vec3> before;
 };
 
 /// Makes places and vertices of a soup of floats the same thing: joins vertices where the result is a mesh; where it is

@@ -1,6 +1,7 @@
 // delmesh remesh IN OUT: the main job.
 
 #include "commands.hpp"
+#include "delmesh/delaunay/part_places.hpp"
 #include "delmesh/delaunay/remesh.hpp"
 #include "delmesh/io/edge_list.hpp"
 #include "delmesh/io/provenance_file.hpp"
@@ -188,7 +189,7 @@ void tell_people(const RemeshArguments& arguments, const Outcome& outcome, Conso
     if (outcome.places.welded > 0)
         console.say(fmt::format("{} vertices joined with others at their place, as STL does", outcome.places.welded));
     if (outcome.places.parted > 0)
-        console.say(fmt::format("{} vertices moved by the last bit, as STL would join them with others at their place",
+        console.say(fmt::format("{} vertices moved by the last bits, as STL would join them with others at their place",
                                 outcome.places.parted));
     if (outcome.written) console.say(fmt::format("wrote {}", arguments.output.path));
 }
@@ -235,6 +236,47 @@ void write_results(const RemeshArguments& arguments, const WriteOptions& options
     outcome.written = true;
 }
 
+/// For STL, vertices at one place are told apart. True if that is possible, and all edges are Delaunay.
+bool remesh(const RemeshArguments& arguments, bool is_stl, Mesh& mesh, Console& console, RemeshReport& report,
+            std::size_t& parted) {
+    report = naming(arguments.input, [&] { return make_delaunay(mesh, arguments.options, console.context()); });
+    if (report.stop != StopReason::done || !is_stl) return report.stop == StopReason::done;
+    const Parting parting = part_places(mesh);
+    parted += parting.moved;
+    return parting.left.empty();
+}
+
+/// Where a surface touches itself and vertices were moved apart for STL, these bends may be what can not be made
+/// Delaunay. Then the vertices are left at their places until the end. Says so in the outcome only if that helps.
+void remesh_touching(const RemeshArguments& arguments, Mesh touching, Mesh& mesh, Console& console, Outcome& outcome) {
+    for (std::size_t v = 0; v < touching.vertex_count(); ++v) touching.set_point(VertexId(v), outcome.places.before[v]);
+    RemeshReport report;
+    std::size_t parted = 0;
+    try {
+        if (remesh(arguments, true, touching, console, report, parted)) {
+            mesh = std::move(touching);
+            outcome.report = std::move(report);
+            outcome.places.parted = parted;
+        }
+    } catch (const Error& error) {
+        if (!is_about_mesh(error.code())) throw;  // an edge without length, say
+    }
+    if (report.stop == StopReason::cancelled) outcome.report.stop = StopReason::cancelled;
+}
+
+void remesh(RemeshArguments& arguments, bool is_stl, Mesh& mesh, Console& console, Outcome& outcome) {
+    arguments.options.on_growth = growth_teller(outcome, console);
+    const bool is_touching = !outcome.places.before.empty();
+    Mesh touching = is_touching ? mesh : Mesh();
+    const bool ended = remesh(arguments, is_stl, mesh, console, outcome.report, outcome.places.parted);
+    if (!ended && is_touching && outcome.report.stop != StopReason::cancelled)
+        remesh_touching(arguments, std::move(touching), mesh, console, outcome);
+    if (outcome.report.witness) {
+        const HalfedgeId h = Mesh::halfedge(*outcome.report.witness);
+        outcome.witness = {mesh.origin(h).index(), mesh.target(h).index()};
+    }
+}
+
 int run_remesh(RemeshArguments& arguments, Console& console) {
     const WriteOptions write_options = arguments.output.write_options();
     Outcome outcome;
@@ -242,12 +284,7 @@ int run_remesh(RemeshArguments& arguments, Console& console) {
     outcome.before = measure(mesh, console.context());
     outcome.watch.lap("measure");
     if (arguments.keep_partial) console.finish_early();
-    arguments.options.on_growth = growth_teller(outcome, console);
-    outcome.report = naming(arguments.input, [&] { return make_delaunay(mesh, arguments.options, console.context()); });
-    if (outcome.report.witness) {
-        const HalfedgeId h = Mesh::halfedge(*outcome.report.witness);
-        outcome.witness = {mesh.origin(h).index(), mesh.target(h).index()};
-    }
+    remesh(arguments, *write_options.format == Format::stl, mesh, console, outcome);
     outcome.watch.lap("remesh");
     if (outcome.report.stop == StopReason::cancelled && !arguments.keep_partial) return console.interrupted();
     // What there is so far is measured whole, too.

@@ -144,8 +144,9 @@ struct SimplifyReport {
 ///
 /// An input that is not Delaunay is remeshed first with `options.remesh`, and with a wider feature angle where that
 /// stops short; one of 200,000 vertices or more is thinned before that, by collapses that leave no more edges that are
-/// not Delaunay than there were. Ratios and targets refer to the number of vertices before all that. Not guaranteed: a bound on the distance to the original, and that the surface does not
-/// intersect itself. After cancelling the mesh is valid and Delaunay (once it was), somewhere between two levels.
+/// not Delaunay than there were. Ratios and targets refer to the number of vertices before all that. Not guaranteed: a
+/// bound on the distance to the original, and that the surface does not intersect itself. After cancelling the mesh is
+/// valid and Delaunay (once it was), somewhere between two levels.
 ///
 /// Throws `Error` (bad_argument; for remeshing see `make_delaunay`). Cost: O(n log n) for n vertices in practice.
 /// Deterministic: the same bits for the same input and options on every system.
