@@ -120,9 +120,8 @@ std::string why_it_stopped(const RemeshArguments& arguments, const Outcome& outc
             if (outcome.report.endless)
                 return fmt::format("stopped{}: rounding to {} precision brings it back whenever it is split{}{}", at,
                                    precision, try_doubles, what_to_try(arguments.options, outcome.report));
-            return fmt::format(
-                "stopped{}: {} precision can not hold a point between its ends that is needed{}{}", at, precision,
-                try_doubles, what_to_try(arguments.options, outcome.report));
+            return fmt::format("stopped{}: {} precision can not hold a point between its ends that is needed{}{}", at,
+                               precision, try_doubles, what_to_try(arguments.options, outcome.report));
         case StopReason::cancelled:
             return "interrupted";
         case StopReason::done:

@@ -232,5 +232,31 @@ TEST_F(Contract, StoppingShortNamesTheModesThatNeedFewerVertices) {
     EXPECT_EQ(of_feature.find("--mode feature"), std::string::npos);
 }
 
+/// Two bodies at one place, each with vertices of its own: STL would join them, and the points that are put into both.
+TEST_F(Contract, StlTellsVerticesAtOnePlaceApart) {
+    ASSERT_EQ(delmesh("sample plate a.obj --faces 200").exit_code, 0);
+    std::istringstream lines(bytes("a.obj"));
+    std::string points;
+    std::string faces;
+    std::string faces_again;
+    std::size_t count = 0;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("v ") && ++count > 0) points += line + "\n";
+        if (line.starts_with("f ")) faces += line + "\n";
+    }
+    std::istringstream corners(faces);
+    for (std::string word; corners >> word;)
+        faces_again += word == "f" ? "\nf" : " " + std::to_string(std::stoul(word) + count);
+    write("twice.obj", points + points + faces + faces_again + "\n");
+    for (const std::string mode : {"preserve", "flip", "feature"}) {
+        const test::Ran ran = delmesh("remesh twice.obj out.stl --effort 0 --json --mode " + mode);
+        ASSERT_EQ(ran.exit_code, 0) << ran.err;
+        EXPECT_GE(ran.json()["parted"], count) << mode;
+        const nlohmann::json of_file = delmesh("check out.stl --json").json();
+        EXPECT_EQ(of_file["delaunay"]["certified"], true);
+        EXPECT_EQ(of_file["mesh"], ran.json()["output"]["mesh"]) << mode;
+    }
+}
+
 }  // namespace
 }  // namespace delmesh

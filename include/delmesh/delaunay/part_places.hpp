@@ -17,10 +17,10 @@ struct Parting {
     std::vector<std::array<VertexId, 2>> left;
 };
 
-/// Moves one of two vertices at one place (-0 equals +0), the younger one if it can, by at most `most_steps` float steps
-/// of its largest coordinate along each axis, the shortest move first, such that all edges of its faces are Delaunay
-/// and no other vertex is there. Requires floats. A Delaunay mesh stays one. Deterministic. Cost: O(vertices) and the
-/// moves that are tried.
+/// Moves one of two vertices at one place (-0 equals +0), the younger one if it can, by at most `most_steps` float
+/// steps of its largest coordinate along each axis, the shortest move first, such that all edges of its faces are
+/// Delaunay and no other vertex is there. Requires floats. A Delaunay mesh stays one. Deterministic. Cost: O(vertices)
+/// and the moves that are tried.
 Parting part_places(Mesh& mesh);
 
 }  // namespace delmesh
