@@ -252,15 +252,17 @@ void remesh_touching(const RemeshArguments& arguments, Mesh touching, Mesh& mesh
     RemeshReport report;
     std::size_t parted = 0;
     try {
-        if (remesh(arguments, true, touching, console, report, parted)) {
-            mesh = std::move(touching);
-            outcome.report = std::move(report);
-            outcome.places.parted = parted;
+        if (!remesh(arguments, true, touching, console, report, parted)) {
+            if (report.stop == StopReason::cancelled) outcome.report.stop = StopReason::cancelled;
+            return;
         }
     } catch (const Error& error) {
-        if (!is_about_mesh(error.code())) throw;  // an edge without length, say
+        if (!is_about_mesh(error.code())) throw;
+        return;  // an edge without length, say
     }
-    if (report.stop == StopReason::cancelled) outcome.report.stop = StopReason::cancelled;
+    mesh = std::move(touching);
+    outcome.report = std::move(report);
+    outcome.places.parted = parted;
 }
 
 void remesh(RemeshArguments& arguments, bool is_stl, Mesh& mesh, Console& console, Outcome& outcome) {
