@@ -37,11 +37,14 @@ Thinner::Thinner(Mesh& mesh, const Tuning& tuning, Precision precision)
 }
 
 void Thinner::run(std::size_t vertices, const Context* context) {
+    const std::size_t start = vertices_;
     double part = tuning_.sweep_part;
     while (vertices_ > vertices && part < 1 && !is_cancelled(context)) {
         merged_.assign(mesh_.vertex_count(), false);
         const std::size_t before = vertices_;
         sweep(vertices, choose_limit(part), context);
+        report_progress(context, "thin",
+                        static_cast<double>(start - vertices_) / static_cast<double>(start - vertices));
         if (before - vertices_ <= vertices_ / 256) {
             part += wider;  // what was cheap is blocked
             continue;
