@@ -2,11 +2,34 @@
 
 #include "delmesh/simplify/simplify.hpp"
 
+#include "delaunay/flip_surface.hpp"
 #include "delmesh/measure/certificate.hpp"
 #include "manifold.hpp"
+#include "simplify/numbering.hpp"
+#include "simplify/thinner.hpp"
+
+#include <algorithm>
 
 namespace delmesh::fuzz {
 namespace {
+
+/// What only large meshes go through.
+void thin(std::size_t vertices, const RemeshOptions& remesh, Mesh mesh) {
+    const bool is_delaunay = certify(mesh).certified;
+    if (!is_delaunay) (void)flip_alone(mesh, remesh, nullptr);
+    drop_isolated(mesh);
+    Tuning tuning;
+    tuning.constrained = is_delaunay;
+    tuning.mending = is_delaunay ? Mending::off : Mending::no_more;
+    Thinner thinner(mesh, tuning, Precision::float64);
+    thinner.run(vertices, nullptr);
+    require(validate(mesh).empty(), "a thinned mesh is valid", validate(mesh));
+    require(!is_delaunay || certify(mesh).certified, "a thinned Delaunay mesh is Delaunay");
+    const std::vector<VertexId> now = thinner.merged_into();
+    const auto kept = static_cast<std::size_t>(std::count_if(
+        now.begin(), now.end(), [&mesh](VertexId v) { return v.valid() && v.index() < mesh.vertex_count(); }));
+    require(kept >= mesh.vertex_count(), "each vertex has come from somewhere");
+}
 
 void run(std::uint8_t choice, Mesh& mesh) {
     SimplifyOptions options;
@@ -17,6 +40,7 @@ void run(std::uint8_t choice, Mesh& mesh) {
     if (choice & 128) options.remesh.mode = RemeshMode::preserve;
     options.remesh.effort = 0;
     options.remesh.max_vertices = mesh.vertex_count() + 200;
+    thin(options.vertices, options.remesh, mesh);
     const SimplifyReport report = simplify(mesh, options);
     require(validate(mesh).empty(), "a simplified mesh is valid", validate(mesh));
     if (report.stop != SimplifyStop::not_delaunay)
