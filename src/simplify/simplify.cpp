@@ -3,6 +3,7 @@
 #include "delaunay/flip_surface.hpp"
 #include "delaunay/vertex_limit.hpp"
 #include "delmesh/base/error.hpp"
+#include "delmesh/exact/predicates.hpp"
 #include "delmesh/measure/certificate.hpp"
 #include "delmesh/measure/statistics.hpp"
 #include "delmesh/mesh/edits.hpp"
@@ -306,12 +307,31 @@ Before thin(Mesh& mesh, const Way& way, Precision precision, bool is_delaunay, S
     return before;
 }
 
-/// Makes the mesh Delaunay. A large one is thinned before: most points would be for vertices that vanish anyhow.
+/// Whether most faces lie in a plane with their neighbours, as on parts that were constructed. Flips cost nothing
+/// there, and collapses that do not keep such faces Delaunay would leave needles that are tilted.
+bool is_mostly_plane(const Mesh& mesh) {
+    constexpr std::size_t looked_at = 20'000;
+    std::size_t plane = 0;
+    std::size_t edges = 0;
+    for (std::size_t i = 0; i < mesh.halfedge_count(); i += 1 + mesh.halfedge_count() / looked_at) {
+        const HalfedgeId h(i);
+        const HalfedgeId t = mesh.twin(h);
+        if (!t.valid()) continue;
+        ++edges;
+        if (is_planar_edge(mesh.point(mesh.origin(h)), mesh.point(mesh.target(h)), mesh.point(mesh.apex(h)),
+                           mesh.point(mesh.apex(t))))
+            ++plane;
+    }
+    return plane > edges / 2;
+}
+
+/// Makes the mesh Delaunay. A large one is thinned, mostly before that: most points would be for vertices that vanish
+/// anyhow.
 bool start(Mesh& mesh, const Way& way, const SimplifyOptions& options, std::optional<Before>& before,
            SimplifyReport& report, const Context* context) {
     RemeshOptions remesh = start_options(mesh, options);
-    if (may_thin(mesh, way) && remesh.feature_edges.empty()) {
-        const bool is_delaunay = certify(mesh, context).certified;
+    const bool is_delaunay = may_thin(mesh, way) && certify(mesh, context).certified;
+    if (may_thin(mesh, way) && remesh.feature_edges.empty() && (is_delaunay || !is_mostly_plane(mesh))) {
         if (!is_delaunay && remesh.mode != RemeshMode::preserve) flip_alone(mesh, remesh, context);
         before = thin(mesh, way, remesh.precision, is_delaunay, report, context);
         remesh = with_at_most(remesh, mesh.vertex_count() + std::max(few_points, mesh.vertex_count() / 4));
@@ -319,6 +339,7 @@ bool start(Mesh& mesh, const Way& way, const SimplifyOptions& options, std::opti
     const StartLimits limits{.vertices = way.targets.front(), .may_thin = way.shakes};
     if (!make_start_delaunay(mesh, remesh, way.tuning, limits, report, context)) return false;
     if (report.thinned_to > 0) before.reset();  // the vertices are not what they were
+    if (!before && may_thin(mesh, way)) before = thin(mesh, way, remesh.precision, true, report, context);
     return true;
 }
 

@@ -189,6 +189,20 @@ TEST(Simplify, ALargeMeshIsThinnedFirst) {
     EXPECT_LT(measure_distance(fine, mesh, {.samples_per_face = 0.1}).mean.percent, 0.2);
 }
 
+/// In a plane points are not needed, and collapses before the flips would leave needles.
+TEST(Simplify, ALargePlaneMeshIsMadeDelaunayFirst) {
+    const Mesh fine = sample("jittered-grid", 405'000);
+    ASSERT_GE(fine.vertex_count(), 200'000u);
+    const std::size_t faults = certify(fine).non_delaunay_edges;
+    Mesh mesh = fine;
+    const SimplifyReport report = simplify(mesh, to_vertices(1000));
+    EXPECT_EQ(mesh.vertex_count(), 1000u);
+    EXPECT_GE(report.remesh->flips, faults / 2) << "of all vertices";
+    EXPECT_EQ(report.remesh->splits, 0u);
+    expect_sound(mesh, test::examine(to_soup(fine)), "large and plane");
+    for (const Vec3& p : mesh.points()) EXPECT_EQ(p.z, fine.points()[0].z);
+}
+
 TEST(Simplify, ALargeDelaunayMeshStaysSo) {
     const Mesh fine = sample("icosphere", 500'000);
     ASSERT_GE(fine.vertex_count(), 200'000u);
