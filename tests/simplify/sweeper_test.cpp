@@ -2,9 +2,9 @@
 
 #include "delmesh/measure/certificate.hpp"
 #include "delmesh/measure/distance.hpp"
-#include "delmesh/measure/statistics.hpp"
 #include "delmesh/mesh/validate.hpp"
 #include "simplify/delaunay_sample.hpp"
+#include "simplify/merged_into.hpp"
 #include "support/surface_facts.hpp"
 
 #include <gtest/gtest.h>
@@ -51,16 +51,7 @@ TEST_P(SweeperOn, GetsFarAndStaysClose) {
     EXPECT_LE(mesh.vertex_count(), std::string(GetParam()) == "plate" ? fine.vertex_count() * 3 / 4 : target);
     EXPECT_TRUE(certify(mesh).certified);
     EXPECT_LT(measure_distance(fine, mesh, {.samples_per_face = 1}).mean.percent, 0.5);
-    const std::vector<VertexId> now = sweeper.merged_into();
-    ASSERT_EQ(now.size(), fine.vertex_count());
-    const double diagonal = bounding_diagonal(fine);
-    std::vector<bool> used(mesh.vertex_count());
-    for (std::size_t v = 0; v < now.size(); ++v) {
-        ASSERT_TRUE(now[v].valid());
-        used[now[v].index()] = true;
-        EXPECT_LT(norm(mesh.point(now[v]) - fine.point(VertexId(v))), 0.25 * diagonal);
-    }
-    EXPECT_EQ(std::count(used.begin(), used.end(), false), 0) << "each vertex has come from somewhere";
+    test::expect_merged_nearby(fine, mesh, sweeper.merged_into());
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, SweeperOn, testing::Values("icosphere", "noisy-sphere", "torus", "terrain", "plate"));
